@@ -88,6 +88,29 @@ impl Queries {
     }
 }
 
+/// The formats for what has a shape and values: a grid, or tables of the values.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum GridFormat {
+    Vtu,
+    Csv,
+    Npz,
+}
+
+/// Parses the name of a file for `what`, such as "Voronoi cells". An error lists the extensions that are `known`.
+pub(super) fn parse_grid(
+    path: &str,
+    what: &'static str,
+    known: &[&'static str],
+) -> Result<ResultOutput<GridFormat>, String> {
+    let format_of = |extension: &str| match extension.to_ascii_lowercase().as_str() {
+        "vtu" => Some(GridFormat::Vtu),
+        "csv" => Some(GridFormat::Csv),
+        "npz" => Some(GridFormat::Npz),
+        _ => None,
+    };
+    ResultOutput::new(Path::new(path), what, format_of, known).map_err(|error| error.to_string())
+}
+
 /// The report of a run: as JSON by `serde`, for people by `Display`.
 #[derive(Serialize)]
 struct Report<'a> {

@@ -1,7 +1,7 @@
 //! `gdel tree`: the Euclidean minimum spanning tree of points.
 
 use super::{
-    derive::{Common, Found, Number, write},
+    derive::{Common, Found, GridFormat, Number, parse_grid, write},
     dimension::{Dimension, Triangulation},
     failure::Failure,
 };
@@ -11,7 +11,6 @@ use gdel::{
     internals::geometry::{Euclidean, Geometry},
 };
 use gdel_io::{CellShape, Column, Grid, Table, files::ResultOutput};
-use std::path::Path;
 
 /// Compute the Euclidean minimum spanning tree of points.
 #[derive(Args)]
@@ -21,25 +20,11 @@ pub(super) struct Arguments {
     /// Where to write the edges, in the order of their lengths: .csv or .npz with both vertices and
     /// the length, or .vtu
     #[arg(short, long = "output", value_name = "FILE", value_parser = parse_output)]
-    output: ResultOutput<Format>,
+    output: ResultOutput<GridFormat>,
 }
 
-#[derive(Debug, Clone, Copy)]
-enum Format {
-    Vtu,
-    Csv,
-    Npz,
-}
-
-fn parse_output(path: &str) -> Result<ResultOutput<Format>, String> {
-    let format_of = |extension: &str| match extension.to_ascii_lowercase().as_str() {
-        "vtu" => Some(Format::Vtu),
-        "csv" => Some(Format::Csv),
-        "npz" => Some(Format::Npz),
-        _ => None,
-    };
-    let output = ResultOutput::new(Path::new(path), "spanning trees", format_of, &["csv", "npz", "vtu"]);
-    output.map_err(|error| error.to_string())
+fn parse_output(path: &str) -> Result<ResultOutput<GridFormat>, String> {
+    parse_grid(path, "spanning trees", &["csv", "npz", "vtu"])
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
@@ -67,7 +52,7 @@ where
     let ends = |end: usize| Column::Indices(tree.edges.iter().map(|edge| edge[end].into()).collect());
     let lengths = Table::default().with("length", Column::Numbers(tree.lengths.clone()));
     match output.format() {
-        Format::Vtu => {
+        GridFormat::Vtu => {
             let mut grid = Grid::new(points, CellShape::Line);
             tree.edges.iter().for_each(|edge| grid.push(*edge));
             grid.values = lengths;
@@ -77,7 +62,7 @@ where
             let mut table = Table::default().with("v0", ends(0)).with("v1", ends(1));
             table.columns.extend(lengths.columns);
             write(output, |to| match format {
-                Format::Npz => table.write_npz(to),
+                GridFormat::Npz => table.write_npz(to),
                 _ => table.write_csv(to),
             })
         }

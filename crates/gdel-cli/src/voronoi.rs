@@ -1,7 +1,7 @@
 //! `gdel voronoi`: the Voronoi cells of points.
 
 use super::{
-    derive::{Common, Found, Number, write},
+    derive::{Common, Found, GridFormat, Number, parse_grid, write},
     dimension::{Dimension, Triangulation},
     failure::Failure,
 };
@@ -11,7 +11,6 @@ use gdel::{
     internals::{derived::VoronoiShapes, geometry::Euclidean},
 };
 use gdel_io::{CellShape, Column, Grid, Table, files::ResultOutput};
-use std::path::Path;
 
 /// Compute the Voronoi cells of points.
 #[derive(Args)]
@@ -24,7 +23,7 @@ pub(super) struct Arguments {
     /// Where to write: the cells as .vtu (those that are bounded); the volume, the centre of mass
     /// and the neighbours of each point's cell as .csv; all arrays as .npz
     #[arg(short, long = "output", value_name = "FILE", value_parser = parse_output)]
-    output: ResultOutput<Format>,
+    output: ResultOutput<GridFormat>,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -37,22 +36,8 @@ enum ClipName {
     Hull,
 }
 
-#[derive(Debug, Clone, Copy)]
-enum Format {
-    Vtu,
-    Csv,
-    Npz,
-}
-
-fn parse_output(path: &str) -> Result<ResultOutput<Format>, String> {
-    let format_of = |extension: &str| match extension.to_ascii_lowercase().as_str() {
-        "vtu" => Some(Format::Vtu),
-        "csv" => Some(Format::Csv),
-        "npz" => Some(Format::Npz),
-        _ => None,
-    };
-    let output = ResultOutput::new(Path::new(path), "Voronoi cells", format_of, &["vtu", "csv", "npz"]);
-    output.map_err(|error| error.to_string())
+fn parse_output(path: &str) -> Result<ResultOutput<GridFormat>, String> {
+    parse_grid(path, "Voronoi cells", &["vtu", "csv", "npz"])
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
@@ -80,9 +65,9 @@ where
         };
         let voronoi = Voronoi::new(mesh, points, clip)?;
         let (result, volumes) = match output.format() {
-            Format::Npz => arrays(&voronoi),
-            Format::Csv => rows(&voronoi),
-            Format::Vtu => cells(&voronoi),
+            GridFormat::Npz => arrays(&voronoi),
+            GridFormat::Csv => rows(&voronoi),
+            GridFormat::Vtu => cells(&voronoi),
         };
         let cells = volumes.iter().filter(|&&volume| volume > 0.0).count();
         let numbers = vec![
