@@ -236,6 +236,16 @@ function instance(name: 'd3' | 'd2', module: WebAssembly.Module, { gpu, device }
     }
   }
 
+  /** Returns what `backend` uses for these points, or null where it is the CPU without looking for an adapter. */
+  const decide = (
+    backend: Backend,
+    { length }: Coordinates,
+    minGpuCoordinates: number,
+  ): Promise<CoreInfo> | null => {
+    const isCpu = backend === 'cpu' || (backend === 'auto' && length < minGpuCoordinates);
+    return isCpu ? null : choose(backend);
+  };
+
   /** Returns the statistics of a run with what is only known in JavaScript. */
   const complete = (
     stats: any,
@@ -268,9 +278,7 @@ function instance(name: 'd3' | 'd2', module: WebAssembly.Module, { gpu, device }
     ) => Promise<any>,
   ): Promise<any> {
     const started = performance.now();
-    const isDecided =
-      backend === 'cpu' || (backend === 'auto' && points.length < minGpuCoordinates);
-    const info = isDecided ? null : await choose(backend);
+    const info = await decide(backend, points, minGpuCoordinates);
     const isOnGpu = info?.backend === 'gpu';
     if (!isOnGpu) control.onBlocking();
     const ready = new Memory(spare);
@@ -369,9 +377,7 @@ function instance(name: 'd3' | 'd2', module: WebAssembly.Module, { gpu, device }
   ): Promise<any> {
     const started = performance.now();
     const { backend, resident, spare, moved, key, newKey, outputs = [] } = args;
-    const isDecided =
-      backend === 'cpu' || (backend === 'auto' && args.points.length < minGpuCoordinates);
-    const info = isDecided ? null : await choose(backend);
+    const info = await decide(backend, args.points, minGpuCoordinates);
     const carrier = new PointCarrier(
       args.points,
       helper,
