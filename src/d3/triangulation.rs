@@ -102,7 +102,7 @@ impl Triangulation3 {
     }
 
     /// Returns the gaps among these slots.
-    fn gaps(&self, slots: Range<usize>) -> Gaps {
+    pub(in crate::d3) fn gaps(&self, slots: Range<usize>) -> Gaps {
         const FEW: usize = 64;
         let mut gaps = Gaps::default();
         // Most slots are no gaps, so one branch decides for many slots at a time.
@@ -116,7 +116,7 @@ impl Triangulation3 {
     }
 
     /// Adds slot `t` to the gaps if it is one.
-    fn note_gap(&self, t: u32, gaps: &mut Gaps) {
+    pub(in crate::d3) fn note_gap(&self, t: u32, gaps: &mut Gaps) {
         if self.state(t) == state::FREE {
             gaps.unused.push(t);
         } else if self.is_ghost(t) {
@@ -125,7 +125,7 @@ impl Triangulation3 {
     }
 
     /// Returns how `gaps`, which are ascending, are closed.
-    fn closing(&self, gaps: &[Gaps], threads: Threads) -> Closing {
+    pub(in crate::d3) fn closing(&self, gaps: &[Gaps], threads: Threads) -> Closing {
         let slots = self.tetrahedra.len();
         let ghosts: usize = gaps.iter().map(|gaps| gaps.ghosts.len()).sum();
         let count = slots - ghosts - gaps.iter().map(|gaps| gaps.unused.len()).sum::<usize>();
@@ -220,23 +220,23 @@ impl Triangulation3 {
 
 /// Slots that have no place in a mesh.
 #[derive(Default)]
-struct Gaps {
+pub(in crate::d3) struct Gaps {
     ghosts: Vec<u32>,
     unused: Vec<u32>,
 }
 
 /// How gaps are closed.
-struct Closing {
+pub(in crate::d3) struct Closing {
     /// The number of tetrahedra of the mesh.
-    count: usize,
+    pub(in crate::d3) count: usize,
     /// The facets of the ghosts, in their order.
-    hull: Vec<[u32; 3]>,
+    pub(in crate::d3) hull: Vec<[u32; 3]>,
     /// The ghosts in slots below the count.
     ghosts: Vec<u32>,
     /// The gaps that are filled, each with the slot of the tetrahedron that moves there.
-    moves: Vec<[u32; 2]>,
+    pub(in crate::d3) moves: Vec<[u32; 2]>,
     /// Where the tetrahedra move to that are in slots from the count on, if they do.
-    moved_to: Vec<u32>,
+    pub(in crate::d3) moved_to: Vec<u32>,
 }
 
 slots::slots_of_arrays!(Triangulation3, 4, tetrahedra, MAX_TETRAHEDRA);

@@ -37,7 +37,7 @@ pub(crate) mod progress;
 pub(crate) mod queries;
 pub(crate) mod readback;
 mod recorder;
-mod room;
+pub(crate) mod room;
 pub mod shader;
 pub mod start;
 pub(crate) mod steps;

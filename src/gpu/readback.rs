@@ -16,8 +16,23 @@ use std::{
     sync::{Arc, Mutex, PoisonError},
 };
 
-/// The number of pieces of large arrays that are on their way at a time.
-const PIECES_AHEAD: usize = 4;
+/// How large arrays are read.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Pace {
+    /// The bytes of a piece.
+    piece: u64,
+    /// The number of pieces that are on their way at a time.
+    ahead: usize,
+}
+
+impl Pace {
+    /// As soon as possible.
+    pub(crate) const ALONE: Pace = Pace { piece: platform::gpu::PIECE, ahead: 4 };
+
+    /// In small pieces, so that other results do not wait for long in between.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub(crate) const BESIDE: Pace = Pace { piece: 8 << 20, ahead: 2 };
+}
 
 /// A pool of staging buffers. Clones share it.
 ///
@@ -101,6 +116,7 @@ impl<T: Pod> Source for Storage<T> {
 #[must_use = "what is on its way has to be taken"]
 pub(crate) struct Reading<'a, S, T> {
     reads: Vec<(S, T)>,
+    pace: Pace,
     /// The read that the next piece belongs to, and the start of the piece there.
     next: (usize, u64),
     /// The pieces that are on their way.
@@ -120,16 +136,16 @@ struct Piece<'a> {
 
 impl<'a, S: Source, T: Target> Reading<'a, S, T> {
     /// Creates the reading of each source into its target.
-    pub(crate) fn new(reads: Vec<(S, T)>) -> Self {
-        Reading { reads, next: (0, 0), ahead: VecDeque::new() }
+    pub(crate) fn new(reads: Vec<(S, T)>, pace: Pace) -> Self {
+        Reading { reads, pace, next: (0, 0), ahead: VecDeque::new() }
     }
 
-    /// Sends pieces on their way until there are [`PIECES_AHEAD`]. Returns how many these are, each in a
+    /// Sends pieces on their way until there are as many as the pace allows. Returns how many these are, each in a
     /// submission of its own.
     pub(crate) fn send(&mut self, gpu: &'a Gpu, readback: &mut Readback) -> usize {
         let mut sent = 0;
-        while self.ahead.len() < PIECES_AHEAD
-            && let Some((read, start, len)) = self.next_piece(platform::gpu::PIECE)
+        while self.ahead.len() < self.pace.ahead
+            && let Some((read, start, len)) = self.next_piece(self.pace.piece)
             && let Some((source, _)) = self.reads.get(read)
         {
             sent += 1;
@@ -166,6 +182,19 @@ impl<'a, S: Source, T: Target> Reading<'a, S, T> {
 }
 
 impl Readback {
+    /// Returns a pool that shares the staging buffers of this one, and counts for itself.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub(crate) fn fork(&self) -> Self {
+        Readback { idle: Arc::clone(&self.idle), count: 0, bytes: 0 }
+    }
+
+    /// Adds what a fork has counted.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub(crate) fn add(&mut self, fork: &Self) {
+        self.count += fork.count;
+        self.bytes += fork.bytes;
+    }
+
     /// Records the copy of `len` elements of `source`, from element `start`, into a staging buffer.
     pub fn copy<T: Pod>(
         &mut self,
@@ -265,7 +294,21 @@ impl Readback {
     ///
     /// Returns the errors of [`Readback::receive`] and [`Gpu::with_error_scope`].
     pub async fn read_into<S: Source, T: Target>(&mut self, gpu: &Gpu, reads: Vec<(S, T)>) -> Result<Vec<T>, Error> {
-        let mut reading = Reading::new(reads);
+        self.read_at(gpu, reads, Pace::ALONE).await
+    }
+
+    /// Does the same at this pace.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Readback::read_into`].
+    pub(crate) async fn read_at<S: Source, T: Target>(
+        &mut self,
+        gpu: &Gpu,
+        reads: Vec<(S, T)>,
+        pace: Pace,
+    ) -> Result<Vec<T>, Error> {
+        let mut reading = Reading::new(reads, pace);
         loop {
             reading.send(gpu, self);
             if !self.take(gpu, &mut reading).await? {

@@ -55,7 +55,7 @@ impl<T: Pod + Send> Room<T> {
 
 /// Returns a list of `len` arbitrary elements with some room behind them, in the memory of `list`. What is
 /// more than that is freed.
-pub(super) fn fitted<T: Pod>(mut list: Vec<T>, len: usize) -> Vec<T> {
+pub(crate) fn fitted<T: Pod>(mut list: Vec<T>, len: usize) -> Vec<T> {
     let wanted = with_room(len);
     if list.capacity() == 0 {
         list = bytemuck::zeroed_vec(wanted);

@@ -1,5 +1,5 @@
-//! Meshes that the host reads before it splays them, and those that the device makes of the stars that splaying has
-//! changed.
+//! Meshes that the host reads before it splays them, or meanwhile, and those that the device makes of the stars that
+//! splaying has changed.
 
 use crate::{clouds, open, same};
 use gdel::{
@@ -24,6 +24,11 @@ use std::{
 /// The settings under which stars are gathered for splaying, and the device makes the arrays of the mesh.
 fn gathering() -> Settings<3> {
     Settings { sparse: true, ..Settings::default() }
+}
+
+/// The settings under which a mesh is read while it is splayed, however small it is.
+fn beside() -> Settings<3> {
+    Settings { reads_beside: Some(true), ..Settings::default() }
 }
 
 fn run<'a>(engine: &mut GpuEngine<3>, points: impl Into<Points3<'a>>, settings: Settings<3>) -> Mesh3 {
@@ -57,6 +62,9 @@ fn every_way_to_the_host_gives_the_same_mesh() {
             let before = run(&mut engine, points, Settings { sparse: false, ..settings });
             assert_eq!(before.stats.splay.map(|splay| splay.gathers), Some(0), "input {i}");
             same(points, &before);
+            let meanwhile = run(&mut engine, points, Settings { insert_all, ..beside() });
+            assert!(meanwhile.stats.splay.is_some_and(|splay| splay.gathers > 0), "input {i}: {:?}", meanwhile.stats);
+            same(points, &meanwhile);
         }
     }
     assert!(has_more, "splaying has inserted no points");
@@ -70,7 +78,9 @@ fn tiny_inputs() {
             generate3d(Distribution3::Uniform, n, 7),
             clouds::shuffled(&clouds::grid(4), n as u64)[..n.max(20)].to_vec(),
         ];
-        inputs.iter().for_each(|points| same(points, &run(&mut engine, points, gathering())));
+        for settings in [gathering(), beside()] {
+            inputs.iter().for_each(|points| same(points, &run(&mut engine, points, settings)));
+        }
     }
 }
 
@@ -78,19 +88,21 @@ fn tiny_inputs() {
 #[test]
 fn ninety_thousand_points() {
     let points = generate3d(Distribution3::Uniform, 90_000, 1);
-    let mut engine = open();
-    let mesh = run(&mut engine, &points, gathering());
-    same(&points, &mesh);
+    for settings in [gathering(), beside()] {
+        let mut engine = open();
+        let mesh = run(&mut engine, &points, settings);
+        same(&points, &mesh);
 
-    // A run that is cancelled before its pieces are read.
-    let stop = |progress: Progress| match progress.phase {
-        Phase::Splay => ControlFlow::Break(()),
-        _ => ControlFlow::Continue(()),
-    };
-    let options = Options { on_progress: Some(Arc::new(stop)), ..Options::default() };
-    let result = block_on(engine.triangulate((&points).into(), &options));
-    assert_eq!(result.map(|_| ()), Err(Error::Cancelled));
-    same(&points, &run(&mut engine, &points, gathering()));
+        // A run that is cancelled before its pieces are read, or meanwhile.
+        let stop = |progress: Progress| match progress.phase {
+            Phase::Splay => ControlFlow::Break(()),
+            _ => ControlFlow::Continue(()),
+        };
+        let options = Options { on_progress: Some(Arc::new(stop)), ..Options::default() };
+        let result = block_on(engine.triangulate((&points).into(), &options));
+        assert_eq!(result.map(|_| ()), Err(Error::Cancelled));
+        same(&points, &run(&mut engine, &points, settings));
+    }
 }
 
 /// Progress is reported in the calling thread, whichever thread splays.
@@ -106,8 +118,10 @@ fn reports_come_in_the_calling_thread() {
     };
     let options = Options { on_progress: Some(Arc::new(watch)), ..Options::default() };
     let mut engine = open();
-    engine.set_settings(gathering());
-    block_on(engine.triangulate((&points).into(), &options)).expect("triangulates");
+    for settings in [gathering(), beside()] {
+        engine.set_settings(settings);
+        block_on(engine.triangulate((&points).into(), &options)).expect("triangulates");
+    }
     assert!(!is_elsewhere.load(Relaxed));
 }
 
@@ -116,7 +130,9 @@ fn reports_come_in_the_calling_thread() {
 fn the_only_thread_of_a_pool_can_do_it() {
     let points = generate3d(Distribution3::ThinSphere, 3_000, 9);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread starts");
-    let mesh = pool.install(|| run(&mut open(), &points, gathering()));
-    assert_eq!(mesh.stats.fallback, None);
-    same(&points, &mesh);
+    for settings in [gathering(), beside()] {
+        let mesh = pool.install(|| run(&mut open(), &points, settings));
+        assert_eq!(mesh.stats.fallback, None);
+        same(&points, &mesh);
+    }
 }

@@ -2,14 +2,18 @@
 //! §3).
 //!
 //! `stars → splay → patch → arrays of the mesh, on the device`, or, for a mesh that a native host wants to have,
-//! `read the mesh → splay → drop the ghosts → mesh`
+//! `read the mesh → splay → drop the ghosts → mesh`; where it is large, `stars → splay → patch of the arrays, which are
+//! read meanwhile → drop the ghosts → mesh`
 
+#[cfg(not(target_arch = "wasm32"))]
+use crate::d3::gpu::{beside, whole};
 use crate::{
     d3::{
         Mesh3,
         gpu::{
-            exchange::{Device, spare},
-            host::{Advanced, Begin, Begun, Encloses, Facets, Stars, Step},
+            exchange::Device,
+            host::Encloses,
+            stars::{Splayed, splay},
             trace::Tracer,
         },
     },
@@ -55,43 +59,32 @@ impl Complete<3> for Dimension<3> {
     ) -> Result<Result<Made<3>, Fallback>, Error> {
         #[cfg(not(target_arch = "wasm32"))]
         if !near.resident {
-            return super::whole::complete(run, near, tracer).await;
+            return if beside::pays(&run) {
+                beside::complete(run, near, tracer).await
+            } else {
+                whole::complete(run, near, tracer).await
+            };
         }
-        complete_with_stars(run, near, tracer).await
+        complete_on_device(run, near, tracer).await
     }
 }
 
-/// Makes the mesh with the stars that splaying needs on the host.
-async fn complete_with_stars<H: Host<3>>(
+/// Splays the mesh, and has the device make the arrays.
+async fn complete_on_device<H: Host<3>>(
     run: Run<'_, 3>,
     mut near: Near<'_, H, 3>,
     mut tracer: Option<Tracer>,
 ) -> Result<Result<Made<3>, Fallback>, Error> {
     let (mut device, begin) = Device::end(run, near.host).await?;
-    near.end_of_phase1(&device.ended.stats);
-    let merged = near.merged(device.ended.read_merged().await?);
-    near.options.report(Phase::Splay, progress::COMPLETION)?;
-    if let Some(tracer) = &mut tracer {
-        let [tetrahedra, neighbors] = device.read().await?;
-        tracer.facets(near.host.ask(Facets { tetrahedra, neighbors }).await?);
-    }
-    let Begun { mut step, missing, duplicate_of, mut exact } = near.host.ask(Begin { merged, ..begin }).await?;
-    near.note_inserted(missing);
-    let (patch, splayed) = loop {
-        let (vertices, next) = match step {
-            Ok(Step::Splayed(patch, splayed)) => break (patch, splayed),
-            Ok(Step::Lacking { vertices, next }) => (vertices, next),
-            Err(reason) => {
-                near.stats.gpu = Some(device.ended.release().summary(near.adapter));
-                return Ok(Err(reason.into()));
-            }
-        };
-        let gathered = device.gather(&vertices, next, spare(near.host)).await?;
-        let advanced: Advanced = near.host.ask(Stars(gathered)).await?;
-        (step, exact) = (advanced.step, exact + advanced.exact);
-    };
+    let splayed = splay(&mut device, begin, &mut near, &mut tracer).await?;
     let Near { host, options, adapter, moved, stats, stopwatch, .. } = near;
-    (stats.splay, stats.exact) = (Some(splayed), exact);
+    let Splayed { patch, duplicate_of } = match splayed {
+        Ok(splayed) => splayed,
+        Err(fallback) => {
+            stats.gpu = Some(device.ended.release().summary(adapter));
+            return Ok(Err(fallback));
+        }
+    };
     if let Err(error) = device.patch(&patch).await {
         stats.gpu = Some(device.ended.release().summary(adapter));
         return match error {

@@ -227,6 +227,7 @@ where
     /// Those of [`Run::advance`].
     pub(crate) async fn read(&mut self) -> Result<(<Dimension<D> as Finish<D>>::Result, Vec<[u32; 2]>), Error> {
         let mut clock = Stopwatch::start();
+        let rooms = self.take_rooms();
         let (gpu, readback, Memory { buffers, bound }) = (self.gpu, &mut self.kernels.readback, &self.memory);
         let (submission, reading) = gpu
             .with_error_scope("the result of Phase 1", || {
@@ -237,7 +238,7 @@ where
             .await?;
         let before = readback.count();
         let len = Dimension::<D>::mesh_len(self.finite, &self.counters);
-        let arrays = readback.read_arrays(gpu, &bound.aliases.arrays(), take_rooms(&mut self.rooms), len).await?;
+        let arrays = readback.read_arrays(gpu, &bound.aliases.arrays(), rooms, len).await?;
         self.stats.submits += 1 + readback.count() - before;
         let mut copied = Copied { readback, gpu, submission };
         let result = Dimension::<D>::receive(&mut copied, reading, arrays, self.finite).await?;
@@ -246,6 +247,11 @@ where
         // The device has nothing to do while the host waits for the last submission.
         self.stats.stalls += 1;
         Ok((result, merged))
+    }
+
+    /// Returns the memory that there is for the simplices and for their neighbours by now.
+    pub(crate) fn take_rooms(&mut self) -> [Vec<Corners<D>>; 2] {
+        std::mem::take(&mut self.rooms).map(|room| room.map_or_else(Vec::new, Room::take))
     }
 
     /// Reads the points that are vertices of no simplex.
@@ -268,14 +274,6 @@ where
     pub(crate) fn release(self) -> Phase1Stats {
         keep(self.kernels, self.memory, self.read_before, self.stats)
     }
-}
-
-/// Returns the memory that there is for the simplices and for their neighbours by now.
-fn take_rooms<const D: usize>(rooms: &mut Rooms<Corners<D>>) -> [Vec<Corners<D>>; 2]
-where
-    Dimension<D>: Dim<D>,
-{
-    std::mem::take(rooms).map(|room| room.map_or_else(Vec::new, Room::take))
 }
 
 /// Returns the points that are merged into others, each with the other one.

@@ -49,6 +49,8 @@ pub struct Settings<const D: usize> {
     /// where the host wants to have it. That saves most of the host's memory, and takes longer than to read the mesh
     /// before it is splayed.
     pub sparse: bool,
+    /// 3D only: whether the host reads the mesh while it splays, if it wants to have it; `None` to do so where it pays.
+    pub reads_beside: Option<bool>,
     /// 2D only: the orientation of the mesh.
     pub winding: Winding,
 }
@@ -95,6 +97,7 @@ where
             budget: Budget { spare_iterations: 256, flips_per_iteration: 256, limits: Limits::measured(D) },
             sort: true,
             sparse: platform::MESHES_STAY_ON_DEVICE,
+            reads_beside: None,
             winding: Winding::CounterClockwise,
         }
     }
