@@ -171,6 +171,14 @@ pub enum Error {
     /// The radius of an alpha complex is negative or NaN.
     #[error("alpha must be a number that is not negative")]
     BadAlpha,
+    /// An option of [`Surface::new`](crate::Surface::new) is out of its range.
+    #[error("{option} must be {range}")]
+    BadOption {
+        /// The name of the option.
+        option: &'static str,
+        /// What it may be.
+        range: &'static str,
+    },
     /// A mesh is not the Delaunay triangulation of the points that were given with it, and cannot
     /// be used.
     #[error("the mesh is not the Delaunay triangulation of the points: {reason}")]
@@ -204,7 +212,7 @@ impl Error {
             NotFinite { .. } | NotWholePoints { .. } | ArrayShape { .. } | ArrayLayout => false,
             AdapterOfDevice | OutOfMemory { .. } | Threads { .. } | Cancelled => false,
             PointCount { .. } | BadIndex { .. } | ValueCount { .. } | EmptyBox { .. } => false,
-            BadAlpha | BrokenMesh { .. } => false,
+            BadAlpha | BadOption { .. } | BrokenMesh { .. } => false,
         }
     }
 }

@@ -97,7 +97,7 @@ pub use d3::{
 };
 pub use derived::{
     AlphaComplex, AlphaShape, AlphaShape2, Cell, Clip, Diagram, FaceClass, Interpolation, Interpolator, Interpolator2,
-    Interval, Location, Locator, Locator2, SpanningTree, Voronoi, Voronoi2,
+    Interval, Location, Locator, Locator2, Side, SpanningTree, Surface, SurfaceOptions, Voronoi, Voronoi2,
 };
 #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
 pub use derived::{DeviceLocator, DeviceLocator2, Locations};

@@ -1,5 +1,5 @@
 //! What is derived from a triangulation: point location, nearest vertices, interpolation, Voronoi
-//! diagrams, alpha shapes and minimum spanning trees, written once for 2D and 3D.
+//! diagrams, alpha shapes, minimum spanning trees and closed surfaces, written once for 2D and 3D.
 //!
 //! Signs are exact: which simplex contains a point, which vertex is nearest, which simplices belong
 //! to an alpha shape. Lengths, areas, volumes and weights are `f64` with a stated error. Results
@@ -15,6 +15,7 @@ mod nearest;
 mod queries;
 mod sets;
 mod sorted;
+mod surface;
 mod tree;
 mod voronoi;
 
@@ -23,5 +24,6 @@ pub use alpha::{AlphaComplex, AlphaEdges, AlphaShape, AlphaShape2, FaceClass, In
 pub use device_locator::{DeviceLocator, DeviceLocator2, Locations};
 pub use interpolate::{Interpolation, Interpolator, Interpolator2, StolenMeasures};
 pub use locate::{Location, Locator, Locator2};
+pub use surface::{Side, Surface, SurfaceOptions};
 pub use tree::SpanningTree;
 pub use voronoi::{Cell, Clip, Diagram, Voronoi, Voronoi2, VoronoiShapes};

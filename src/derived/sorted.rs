@@ -33,7 +33,15 @@ where
     Euclidean: Geometry<D, N>,
 {
     pub(super) fn new(complex: &Complex<'_, D, N>) -> Self {
-        let points = order_along_curve(complex.points(), CurveKey::new(complex.bounds()));
+        let key = CurveKey::new(complex.bounds());
+        let mut points = order_along_curve(complex.points(), key);
+        // Points in the same cell by their coordinates, so that the input's order does not matter.
+        let place = |i: u32| key.of::<N>(complex.point(i));
+        for cell in points.chunk_by_mut(|&i, &j| place(i) == place(j)) {
+            let order =
+                |&i: &u32, &j: &u32| complex.point(i).partial_cmp(&complex.point(j)).map(|order| order.then(i.cmp(&j)));
+            cell.sort_unstable_by(|i, j| order(i, j).unwrap_or_else(|| i.cmp(j)));
+        }
         let ranks = inverse(&points);
         let firsts = map(complex.simplices.len(), |t| {
             let ranks = complex.simplices[t].map(|v| ranks[v as usize]);
@@ -57,6 +65,20 @@ where
         Sorted { complex: sorted, points, simplices, places }
     }
 
+    /// Arranges the vertices of each simplex by an even permutation so that all but the last two, and
+    /// these too if the orientation allows it, ascend. The arrays of a simplex then depend on its
+    /// vertices alone.
+    pub(super) fn arrange_rows(&mut self) {
+        let rows = (self.complex.simplices.to_mut(), self.complex.neighbors.to_mut());
+        parallel::for_chunk_pairs(Threads::All, (&mut rows.0[..], &mut rows.1[..]), |_, (simplices, neighbors)| {
+            for (simplex, across) in simplices.iter_mut().zip(neighbors) {
+                let order = even_order(simplex);
+                *simplex = order.map(|k| simplex[k]);
+                *across = order.map(|k| across[k]);
+            }
+        });
+    }
+
     /// Returns the vertices of a face as they were numbered in the mesh that was sorted.
     pub(super) fn given<const K: usize>(&self, face: [u32; K]) -> [u32; K] {
         face.map(|v| self.points[v as usize])
@@ -66,6 +88,24 @@ where
 /// Returns the results of `work` for the numbers below `len`. Threads share the work.
 fn map<R: Clone + Send>(len: usize, work: impl Fn(usize) -> R + Sync) -> Vec<R> {
     parallel::joined(parallel::map_ranges(Threads::All, len, |range| range.map(&work).collect()))
+}
+
+/// Returns an even permutation that sorts the row, except that its last two entries may descend.
+pub(super) fn even_order<const N: usize>(row: &[u32; N]) -> [usize; N] {
+    let mut order: [usize; N] = std::array::from_fn(|k| k);
+    let mut is_odd = false;
+    for end in 1..N {
+        let mut k = end;
+        while k > 0 && row[order[k - 1]] > row[order[k]] {
+            order.swap(k - 1, k);
+            is_odd = !is_odd;
+            k -= 1;
+        }
+    }
+    if is_odd {
+        order.swap(N - 2, N - 1);
+    }
+    order
 }
 
 /// Returns where each number is in a list of all numbers below its length.

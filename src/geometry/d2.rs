@@ -81,6 +81,11 @@ impl Geometry<2, 3> for Euclidean {
         super::is_obtuse(p, a, b)
     }
 
+    #[inline]
+    fn facet_normal(&[a, b]: &[[f64; 2]; 2]) -> [f64; 2] {
+        [b[1] - a[1], a[0] - b[0]]
+    }
+
     fn boundary_measure(&[a, b, c]: &[[f64; 2]; 3]) -> f64 {
         [[a, b], [b, c], [c, a]].iter().map(|&[p, q]| vector::norm(vector::minus(p, q))).sum()
     }

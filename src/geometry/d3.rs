@@ -97,6 +97,11 @@ impl Geometry<3, 4> for Euclidean {
         polynomial::sign(&InSmallestSphere, &[a, b, c, p]) < 0
     }
 
+    #[inline]
+    fn facet_normal(&[a, b, c]: &[[f64; 3]; 3]) -> [f64; 3] {
+        vector::cross(vector::minus(b, a), vector::minus(c, a))
+    }
+
     fn boundary_measure(simplex: &[[f64; 3]; 4]) -> f64 {
         let area = |facet: [usize; 3]| {
             let [a, b, c] = facet.map(|corner| simplex[corner]);

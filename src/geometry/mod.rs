@@ -81,6 +81,11 @@ pub trait Geometry<const D: usize, const N: usize>: Copy + Send + Sync + 'static
     /// exactly.
     fn in_smallest_sphere(facet: &[[f64; D]; D], p: [f64; D]) -> bool;
 
+    /// Returns the normal of a facet that points to where the facet is counter-clockwise from: out of
+    /// the simplex for those in [`FACETS`](Self::FACETS). In 2D, it points to the right of the edge.
+    /// Its length is the facet's measure times (`D` − 1)!.
+    fn facet_normal(facet: &[[f64; D]; D]) -> [f64; D];
+
     /// Returns the sum of the measures of a simplex's facets.
     fn boundary_measure(simplex: &[[f64; D]; N]) -> f64;
 }

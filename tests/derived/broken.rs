@@ -3,7 +3,8 @@
 
 use crate::inputs::{inputs2, inputs3, mesh2, mesh3, queries};
 use gdel::{
-    AlphaShape, Clip, Error, Interpolation, Interpolator, Locator, Mesh, Points, SpanningTree, Voronoi,
+    AlphaShape, Clip, Error, Interpolation, Interpolator, Locator, Mesh, Points, SpanningTree, Surface, SurfaceOptions,
+    Voronoi,
     internals::{
         derived::{AlphaEdges, StolenMeasures, VoronoiShapes},
         geometry::{Euclidean, Geometry},
@@ -11,7 +12,7 @@ use gdel::{
 };
 
 /// Returns the errors of all that is derived from a mesh and its points.
-fn errors<const D: usize, const N: usize>(mesh: &impl Mesh<D, N>, points: &[[f64; D]]) -> [Option<Error>; 4]
+fn errors<const D: usize, const N: usize>(mesh: &impl Mesh<D, N>, points: &[[f64; D]]) -> [Option<Error>; 5]
 where
     Euclidean: Geometry<D, N> + AlphaEdges<D, N> + VoronoiShapes<D, N>,
 {
@@ -21,6 +22,7 @@ where
         Voronoi::new(mesh, points, Clip::None).err(),
         AlphaShape::new(mesh, points).err(),
         SpanningTree::new(mesh, points).err(),
+        Surface::new(mesh, points, &SurfaceOptions::default()).err(),
     ]
 }
 
@@ -29,7 +31,7 @@ where
     Euclidean: Geometry<D, N> + AlphaEdges<D, N> + VoronoiShapes<D, N>,
 {
     let count = points.len();
-    assert_eq!(errors(mesh, points), [None, None, None, None]);
+    assert_eq!(errors(mesh, points), [None, None, None, None, None]);
     let few = Some(Error::PointCount { points: count - 1, expected: count });
     assert!(errors(mesh, &points[1..]).iter().all(|error| *error == few));
     let mut infinite = points.to_vec();
@@ -91,6 +93,8 @@ where
     }
     let tree = SpanningTree::new(mesh, points).unwrap();
     assert_eq!(tree.clusters(3).len(), points.len());
+    let surface = Surface::new(mesh, points, &SurfaceOptions::default()).unwrap();
+    assert_eq!(surface.sides().len(), points.len());
 }
 
 /// Simplices of such meshes are flat and inverted, and overlap.

@@ -9,6 +9,7 @@ mod inputs;
 mod interpolate;
 mod locate;
 mod nearest;
+mod surface;
 mod tree;
 mod unused;
 mod voronoi;

@@ -1,7 +1,7 @@
 //! `gdel alpha`: the alpha shape of points.
 
 use super::{
-    derive::{Common, Found, Number, write},
+    derive::{Common, Found, Number, SolidFormat, parse_solid, write},
     dimension::{Dimension, Triangulation},
     failure::Failure,
 };
@@ -10,8 +10,8 @@ use gdel::{
     AlphaShape, Error, Mesh2, Mesh3, Points,
     internals::{derived::AlphaEdges, geometry::Euclidean},
 };
-use gdel_io::{CellShape, Grid, SurfaceFormat, files::ResultOutput};
-use std::{num::NonZeroUsize, path::Path};
+use gdel_io::{CellShape, Grid, files::ResultOutput};
+use std::num::NonZeroUsize;
 
 /// Compute the alpha shape of points: a solid for a radius alpha, and its surface.
 #[derive(Args)]
@@ -26,10 +26,10 @@ pub(super) struct Arguments {
     /// With `--alpha auto`: the largest number of components, 1 if not given
     #[arg(long, value_name = "N")]
     components: Option<NonZeroUsize>,
-    /// Where to write: the surface as .ply, .obj, .stl or .glb, the tetrahedra of the solid as
-    /// .vtu; in 2D, all have the triangles of the solid
+    /// Where to write: the surface as .ply, .obj, .stl, .glb or .3mf, the tetrahedra of the solid
+    /// as .vtu; in 2D, all have the triangles of the solid
     #[arg(short, long = "output", value_name = "FILE", value_parser = parse_output)]
-    output: ResultOutput<Format>,
+    output: ResultOutput<SolidFormat>,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -46,20 +46,8 @@ fn parse_alpha(text: &str) -> Result<Alpha, String> {
     }
 }
 
-#[derive(Debug, Clone, Copy)]
-enum Format {
-    Surface(SurfaceFormat),
-    Vtu,
-}
-
-fn parse_output(path: &str) -> Result<ResultOutput<Format>, String> {
-    let format_of = |extension: &str| match extension.to_ascii_lowercase().as_str() {
-        "vtu" => Some(Format::Vtu),
-        other => SurfaceFormat::from_extension(other).map(Format::Surface),
-    };
-    let known = ["ply", "obj", "stl", "glb", "vtu"];
-    let output = ResultOutput::new(Path::new(path), "alpha shapes", format_of, &known);
-    output.map_err(|error| error.to_string())
+fn parse_output(path: &str) -> Result<ResultOutput<SolidFormat>, String> {
+    parse_solid(path, "alpha shapes")
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
@@ -91,13 +79,13 @@ where
     let (_, parts) = common.run::<M, D, N, _>(points, "alpha", |mesh| find(mesh, points, *alpha, components))?;
     let Parts { solid, surface } = parts;
     match output.format() {
-        Format::Vtu => {
+        SolidFormat::Vtu => {
             let shape = if D == 2 { CellShape::Triangle } else { CellShape::Tetrahedron };
             let mut grid = Grid::new(points, shape);
             solid.iter().for_each(|simplex| grid.push(*simplex));
             write(output, |to| grid.write_vtu(to))
         }
-        Format::Surface(format) => {
+        SolidFormat::Surface(format) => {
             // Three vertices: those of a facet in 3D, or of a simplex in 2D.
             let triangles: Vec<[u32; 3]> = if D == 2 {
                 solid.iter().map(|simplex| std::array::from_fn(|k| simplex[k])).collect()

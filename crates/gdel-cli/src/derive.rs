@@ -12,7 +12,7 @@ use clap::{
 };
 use gdel::{Backend, Error, Points, Triangulator, stats::Fallback};
 use gdel_io::{
-    Mesh, PointCloud, PointFormat,
+    Mesh, PointCloud, PointFormat, SurfaceFormat,
     files::{Input, ResultOutput},
 };
 use serde::{Serialize, Serializer};
@@ -111,6 +111,25 @@ pub(super) fn parse_grid(
     ResultOutput::new(Path::new(path), what, format_of, known).map_err(|error| error.to_string())
 }
 
+/// The formats for a solid and its surface.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum SolidFormat {
+    /// The triangles of the surface.
+    Surface(SurfaceFormat),
+    /// The simplices of the solid.
+    Vtu,
+}
+
+/// Parses the name of a file for `what`, such as "alpha shapes".
+pub(super) fn parse_solid(path: &str, what: &'static str) -> Result<ResultOutput<SolidFormat>, String> {
+    let format_of = |extension: &str| match extension.to_ascii_lowercase().as_str() {
+        "vtu" => Some(SolidFormat::Vtu),
+        other => SurfaceFormat::from_extension(other).map(SolidFormat::Surface),
+    };
+    let known = ["ply", "obj", "stl", "glb", "3mf", "vtu"];
+    ResultOutput::new(Path::new(path), what, format_of, &known).map_err(|error| error.to_string())
+}
+
 /// The report of a run: as JSON by `serde`, for people by `Display`.
 #[derive(Serialize)]
 struct Report<'a> {
@@ -145,6 +164,7 @@ impl fmt::Display for Report<'_> {
             match number {
                 Number::Count(count) => writeln!(f, "{name:<16}{count}")?,
                 Number::Real(real) => writeln!(f, "{name:<16}{real}")?,
+                Number::Truth(truth) => writeln!(f, "{name:<16}{}", if *truth { "yes" } else { "no" })?,
             }
         }
         let seconds: Vec<String> = self.seconds.iter().map(|(name, time)| format!("{name} {time:.3}")).collect();
@@ -152,12 +172,13 @@ impl fmt::Display for Report<'_> {
     }
 }
 
-/// A number that a command prints.
+/// A number, or what is true or not, that a command prints.
 #[derive(Clone, Copy, Serialize)]
 #[serde(untagged)]
 pub(super) enum Number {
     Count(usize),
     Real(f64),
+    Truth(bool),
 }
 
 /// The result of a command, and the numbers about it that are printed.

@@ -14,6 +14,7 @@ mod progress;
 mod quiet;
 mod report;
 mod signals;
+mod surface;
 mod tree;
 mod triangulate;
 mod verify;
@@ -50,6 +51,7 @@ enum Command {
     Interpolate(interpolate::Arguments),
     Voronoi(voronoi::Arguments),
     Alpha(alpha::Arguments),
+    Surface(surface::Arguments),
     Tree(tree::Arguments),
     /// List the GPUs of this machine
     Adapters,
@@ -74,6 +76,7 @@ fn main() -> ExitCode {
         Command::Interpolate(arguments) => interpolate::run(&arguments),
         Command::Voronoi(arguments) => voronoi::run(&arguments),
         Command::Alpha(arguments) => alpha::run(&arguments),
+        Command::Surface(arguments) => surface::run(&arguments),
         Command::Tree(arguments) => tree::run(&arguments),
         Command::Adapters => adapters::run(),
     };

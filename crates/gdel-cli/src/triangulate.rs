@@ -30,7 +30,7 @@ pub(super) struct Arguments {
     /// .e57, .npy, .node, .f32 or .f64; or `-` for standard input, with `--format`
     input: PathBuf,
     /// Where to write: the mesh as .node, .ele and .neigh (TetGen, always all three), .vtu or .npz;
-    /// its hull as .ply, .obj, .stl or .glb; may be given several times
+    /// its hull as .ply, .obj, .stl, .glb or .3mf; may be given several times
     #[arg(short, long = "output", value_name = "OUTPUT", value_parser = parse_output)]
     outputs: Vec<Output>,
     /// Replace any existing file; without this, only earlier outputs of gdel are replaced

@@ -2,7 +2,7 @@
 
 use crate::{
     FormatError, Mesh, MeshData, PointCloud, e57, glb, las, npy, npz, obj, off, pcd, ply, raw, stl, surface::Surface,
-    tetgen, text, vtu,
+    tetgen, text, three_mf, vtu,
 };
 use gdel::Points;
 use std::io::{self, Write};
@@ -105,6 +105,8 @@ formats! {
         Stl: "stl",
         /// Binary glTF 2.0.
         Glb: "glb",
+        /// 3MF, for printing; units are millimetres.
+        ThreeMf: "3mf",
     }
 }
 
@@ -263,6 +265,7 @@ impl SurfaceFormat {
             SurfaceFormat::Obj => obj::write_surface(to, surface),
             SurfaceFormat::Stl => stl::write_surface(to, surface),
             SurfaceFormat::Glb => glb::write_surface(to, surface),
+            SurfaceFormat::ThreeMf => three_mf::write_surface(to, surface),
         }
     }
 }

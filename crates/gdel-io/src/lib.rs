@@ -9,6 +9,7 @@
 //! allocates what it promises, or that can be guarded. Modules that read a format themselves say
 //! why.
 
+mod archive;
 mod colors;
 mod e57;
 mod error;
@@ -32,6 +33,7 @@ mod surface;
 mod table;
 mod tetgen;
 mod text;
+mod three_mf;
 mod vtu;
 
 pub use colors::{ColorSource, PointColors};

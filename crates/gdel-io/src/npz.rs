@@ -2,20 +2,16 @@
 
 use crate::{
     FormatError, Mesh, MeshData,
+    archive::{self, Archive},
     mesh::Names,
     npy::{self, Array},
-    surface::MARK,
 };
 use gdel::{NONE, Points};
 use std::{
     io::{self, Cursor, Read, Write},
     ops::RangeInclusive,
 };
-use zip::{
-    CompressionMethod, ZipArchive, ZipWriter,
-    result::ZipError,
-    write::{SimpleFileOptions, StreamWriter},
-};
+use zip::{CompressionMethod, ZipArchive, result::ZipError};
 
 /// No ZIP member expands by more: DEFLATE's limit.
 const LARGEST_RATIO: u64 = 1032;
@@ -82,79 +78,18 @@ pub fn write_npz<const D: usize, const N: usize, M: Mesh<D, N>>(
     points: Points<'_, D>,
     mesh: &M,
 ) -> io::Result<()> {
-    self::write(to, |archive| {
-        archive.array("points", |to| npy::write(to, points))?;
-        archive.array(M::NAMES.simplices, |to| npy::write_array(to, "<u4", mesh.simplices(), u32::to_le_bytes))?;
-        archive.array(M::NAMES.adjacency, |to| npy::write_array(to, "<i4", mesh.adjacency(), i32::to_le_bytes))
+    archive::write(to, |archive| {
+        array(archive, "points", |to| npy::write(to, points))?;
+        array(archive, M::NAMES.simplices, |to| npy::write_array(to, "<u4", mesh.simplices(), u32::to_le_bytes))?;
+        array(archive, M::NAMES.adjacency, |to| npy::write_array(to, "<i4", mesh.adjacency(), i32::to_le_bytes))
     })
 }
 
-/// Writes an archive of arrays.
-pub(super) fn write(to: impl Write, arrays: impl FnOnce(&mut Archive<'_>) -> io::Result<()>) -> io::Result<()> {
-    let mut failure = None;
-    let result = write_arrays(&mut Latch { to, failure: &mut failure }, arrays);
-    failure.map_or(result, Err)
-}
-
-/// A file that reports no error after its first one. A `ZipWriter` that is dropped early tries to
-/// write the end of the archive, and would print the error.
-struct Latch<'f, W> {
-    to: W,
-    failure: &'f mut Option<io::Error>,
-}
-
-impl<W: Write> Write for Latch<'_, W> {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        if self.failure.is_some() {
-            return Ok(bytes.len());
-        }
-        match self.to.write(bytes) {
-            Err(error) if error.kind() == io::ErrorKind::Interrupted => Err(error),
-            Err(error) => {
-                *self.failure = Some(error);
-                Ok(bytes.len())
-            }
-            Ok(0) if !bytes.is_empty() => {
-                *self.failure = Some(io::ErrorKind::WriteZero.into());
-                Ok(bytes.len())
-            }
-            written => written,
-        }
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        if self.failure.is_none()
-            && let Err(error) = self.to.flush()
-        {
-            *self.failure = Some(error);
-        }
-        Ok(())
-    }
-}
-
-/// An archive that is being written.
-pub(super) struct Archive<'w>(ZipWriter<StreamWriter<&'w mut dyn Write>>);
-
-impl<'w> Archive<'w> {
-    /// Writes the array of that name.
-    pub(super) fn array(
-        &mut self,
-        name: &str,
-        write: impl FnOnce(&mut ZipWriter<StreamWriter<&'w mut dyn Write>>) -> io::Result<()>,
-    ) -> io::Result<()> {
-        // 64-bit sizes allow for meshes of any size. Without dates, equal meshes give equal files.
-        let options = SimpleFileOptions::default()
-            .compression_method(CompressionMethod::Stored)
-            .large_file(true)
-            .last_modified_time(zip::DateTime::default());
-        self.0.start_file(format!("{name}.npy"), options)?;
-        write(&mut self.0)
-    }
-}
-
-fn write_arrays(to: &mut dyn Write, arrays: impl FnOnce(&mut Archive<'_>) -> io::Result<()>) -> io::Result<()> {
-    let mut archive = Archive(ZipWriter::new_stream(to));
-    arrays(&mut archive)?;
-    archive.0.set_comment(MARK).map_err(io::Error::from)?;
-    archive.0.finish()?.into_inner().flush()
+/// Writes the array of that name.
+pub(super) fn array(
+    archive: &mut Archive<'_>,
+    name: &str,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
+    archive.file(&format!("{name}.npy"), CompressionMethod::Stored, write)
 }

@@ -1,6 +1,6 @@
 //! Tables of results: CSV and NumPy's `.npz`, and VTK's grids with a table of values per cell.
 
-use crate::{npy, npz, surface::padded, vtu};
+use crate::{archive, npy, npz, surface::padded, vtu};
 use gdel::{Csr, Points};
 use std::io::{self, Write};
 
@@ -88,20 +88,20 @@ impl Table {
     ///
     /// Returns an error if `to` cannot be written.
     pub fn write_npz(&self, to: impl Write) -> io::Result<()> {
-        npz::write(to, |archive| {
+        archive::write(to, |archive| {
             for (name, column) in &self.columns {
                 match column {
                     Column::Numbers(numbers) => {
-                        archive.array(name, |to| npy::write_vector(to, "<f8", numbers, f64::to_le_bytes))?;
+                        npz::array(archive, name, |to| npy::write_vector(to, "<f8", numbers, f64::to_le_bytes))?;
                     }
                     Column::Indices(indices) => {
-                        archive.array(name, |to| npy::write_vector(to, "<i8", indices, i64::to_le_bytes))?;
+                        npz::array(archive, name, |to| npy::write_vector(to, "<i8", indices, i64::to_le_bytes))?;
                     }
                     Column::Lists(Csr { offsets, indices, .. }) => {
                         let offset = |x: usize| (x as u64).to_le_bytes();
-                        archive
-                            .array(&format!("{name}_offsets"), |to| npy::write_vector(to, "<u8", offsets, offset))?;
-                        archive.array(name, |to| npy::write_vector(to, "<u4", indices, u32::to_le_bytes))?;
+                        let offsets_name = format!("{name}_offsets");
+                        npz::array(archive, &offsets_name, |to| npy::write_vector(to, "<u8", offsets, offset))?;
+                        npz::array(archive, name, |to| npy::write_vector(to, "<u4", indices, u32::to_le_bytes))?;
                     }
                 }
             }

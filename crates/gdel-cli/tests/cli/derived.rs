@@ -1,4 +1,4 @@
-//! What is derived from a triangulation: `locate`, `interpolate`, `voronoi`, `alpha`, `tree`.
+//! What is derived from a triangulation: `locate`, `interpolate`, `voronoi`, `alpha`, `surface`, `tree`.
 
 use crate::{BUNNY, command, fails, fails_with, files, folder, gdel, succeeds};
 use std::{
@@ -189,12 +189,59 @@ fn alpha_of_the_bunny() {
 }
 
 #[test]
+fn surface_of_the_bunny() {
+    let folder = folder();
+    let path = folder.path();
+    let run = stats(path, &["surface", BUNNY, "-o", "s.obj"]);
+    for (key, value) in [("components", 1), ("genus", 0), ("vertices", 35_933), ("surface_triangles", 71_862)] {
+        assert_eq!(run[key], value, "{run}");
+    }
+    assert_eq!((&run["closed"], &run["on_surface"]), (&true.into(), &35_933.into()), "{run}");
+    let sum: u64 = ["on_surface", "inside", "outside"].iter().map(|key| run[key].as_u64().unwrap()).sum();
+    assert_eq!(run["points"], sum);
+    assert!((run["volume"].as_f64().unwrap() / 0.000755 - 1.0).abs() < 0.001, "{run}");
+    // The files are the same for any number of threads.
+    let surface = |threads: &str, name: &str| {
+        let arguments = ["surface", BUNNY, "--backend", "cpu", "-fo", name];
+        let run = command(path, &arguments).env("RAYON_NUM_THREADS", threads).output().unwrap();
+        assert!(run.status.success());
+        fs::read(path.join(name)).unwrap()
+    };
+    for name in ["s.stl", "s.ply", "s.glb", "s.3mf"] {
+        assert!(surface("1", name) == surface("3", name), "{name}");
+    }
+}
+
+#[test]
+fn surface_in_all_formats_and_dimensions() {
+    let folder = samples();
+    let path = folder.path();
+    for dim in ["2", "3"] {
+        let points = if dim == "2" { "square.csv" } else { "cube.csv" };
+        for name in ["s.ply", "s.obj", "s.stl", "s.glb", "s.3mf", "s.vtu"] {
+            let run = stats(path, &["surface", points, "--dim", dim, "-fo", name]);
+            let expected =
+                if dim == "2" { ("curve_edges", 4, "area", 4.0) } else { ("surface_triangles", 12, "volume", 1.0) };
+            assert_eq!((&run[expected.0], &run[expected.2]), (&expected.1.into(), &expected.3.into()), "{run}");
+            assert_eq!((&run["closed"], &run["inside"]), (&true.into(), &1.into()), "{run}");
+            assert!(fs::metadata(path.join(name)).unwrap().len() > 100, "{name}");
+        }
+    }
+    // Without a solid, the surface is empty.
+    fs::write(path.join("flat.xyz"), "0 0 0\n1 0 0\n0 1 0\n").unwrap();
+    let run = stats(path, &["surface", "flat.xyz", "-o", "e.stl"]);
+    assert_eq!((&run["surface_triangles"], &run["closed"]), (&0.into(), &true.into()), "{run}");
+    fails(path, &["surface", "cube.csv", "--min-part", "2", "-fo", "e.stl"], "min_part must be a number from 0 to 1");
+    assert_eq!(gdel(path, &["surface", "cube.csv", "-o", "s.las"]).status.code(), Some(2));
+}
+
+#[test]
 fn alpha_in_all_formats_and_dimensions() {
     let folder = samples();
     let path = folder.path();
     for dim in ["2", "3"] {
         let points = if dim == "2" { "square.csv" } else { "cube.csv" };
-        for name in ["a.ply", "a.obj", "a.stl", "a.glb", "a.vtu"] {
+        for name in ["a.ply", "a.obj", "a.stl", "a.glb", "a.3mf", "a.vtu"] {
             let run = stats(path, &["alpha", points, "--dim", dim, "-o", name]);
             let expected = if dim == "2" { (1.0, 4, 4) } else { (0.75, 12, 12) };
             let counts = (run["alpha"].as_f64().unwrap(), run["solid"].as_u64(), run["surface"].as_u64());

@@ -41,7 +41,7 @@ fn other_files_are_replaced_by_force_only() {
     let folder = folder();
     let path = folder.path();
     fs::write(path.join("scan.obj"), TETRAHEDRON).unwrap();
-    let outputs = ["m.ele", "m.vtu", "m.npz", "h.ply", "h.obj", "h.stl", "h.glb"];
+    let outputs = ["m.ele", "m.vtu", "m.npz", "h.ply", "h.obj", "h.stl", "h.glb", "h.3mf"];
     for name in outputs {
         let name = if name == "m.ele" { "m.neigh" } else { name };
         fs::write(path.join(name), "precious").unwrap();
@@ -176,7 +176,7 @@ fn outputs_that_cannot_be_written() {
 #[cfg(unix)]
 #[test]
 fn a_full_disk_leaves_old_files_and_no_new_ones() {
-    for extension in ["vtu", "npz", "ele", "ply", "obj", "stl", "glb"] {
+    for extension in ["vtu", "npz", "ele", "ply", "obj", "stl", "glb", "3mf"] {
         let folder = folder();
         let path = folder.path();
         succeeds(path, &["generate", "sphere", "5000", "-o", "p.f64"]);

@@ -11,3 +11,4 @@ mod laz;
 mod meshes;
 mod outputs;
 mod points;
+mod three_mf;

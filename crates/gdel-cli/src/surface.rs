@@ -1,0 +1,124 @@
+//! `gdel surface`: one closed surface through the points of a scan.
+
+use super::{
+    derive::{Common, Found, Number, SolidFormat, parse_solid, write},
+    dimension::{Dimension, Triangulation},
+    failure::Failure,
+};
+use clap::Args;
+use gdel::{
+    Error, Mesh2, Mesh3, Points, Side, Surface, SurfaceOptions,
+    internals::geometry::{Euclidean, Geometry},
+};
+use gdel_io::{CellShape, Grid, PointBuf, SurfaceFormat, files::ResultOutput};
+use std::io;
+
+/// Find the closed surface that points of a scan lie on: no normals are needed.
+#[derive(Args)]
+pub(super) struct Arguments {
+    #[command(flatten)]
+    common: Common,
+    /// Drop pieces and cavities of less than this share of the largest piece's volume
+    #[arg(long, value_name = "SHARE", default_value = "0.01")]
+    min_part: f64,
+    /// Where to write: the surface as .stl, .ply, .obj, .glb or .3mf, the tetrahedra of the solid as
+    /// .vtu; in 2D, .vtu has the curves, and all others have the triangles between them
+    #[arg(short, long = "output", value_name = "FILE", value_parser = parse_output)]
+    output: ResultOutput<SolidFormat>,
+}
+
+fn parse_output(path: &str) -> Result<ResultOutput<SolidFormat>, String> {
+    parse_solid(path, "surfaces")
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    match arguments.common.dim {
+        Dimension::Three => run_in::<Mesh3, 3, 4>(arguments),
+        Dimension::Two => run_in::<Mesh2, 2, 3>(arguments),
+    }
+}
+
+fn run_in<M: Triangulation<D, N>, const D: usize, const N: usize>(arguments: &Arguments) -> Result<(), Failure>
+where
+    Euclidean: Geometry<D, N>,
+{
+    let Arguments { common, output, .. } = arguments;
+    let input = common.input()?;
+    common.check(output, &[input.path()])?;
+    let cloud = common.read::<D>(&input)?;
+    let points = Points::from(&cloud);
+    let mut options = SurfaceOptions::default();
+    options.min_part = arguments.min_part;
+    let (_, surface) = common.run::<M, D, N, _>(points, "surface", |mesh| find(mesh, points, &options))?;
+    match output.format() {
+        SolidFormat::Vtu if D == 2 => {
+            let mut grid = Grid::new(Points::F64(surface.vertices()), CellShape::Line);
+            surface.facets().iter().for_each(|edge| grid.push(*edge));
+            write(output, |to| grid.write_vtu(to))
+        }
+        SolidFormat::Vtu => {
+            let mut grid = Grid::new(points, CellShape::Tetrahedron);
+            surface.solid().iter().for_each(|simplex| grid.push(*simplex));
+            write(output, |to| grid.write_vtu(to))
+        }
+        SolidFormat::Surface(format) if D == 2 => {
+            write(output, |to| write_triangles(format, to, points, surface.solid()))
+        }
+        SolidFormat::Surface(format) => {
+            let vertices = in_precision_of(points, surface.vertices());
+            write(output, |to| write_triangles(format, to, (&vertices).into(), surface.facets()))
+        }
+    }
+}
+
+fn find<M: gdel::Mesh<D, N>, const D: usize, const N: usize>(
+    mesh: &M,
+    points: Points<'_, D>,
+    options: &SurfaceOptions,
+) -> Result<Found<Surface<D, N>>, Error>
+where
+    Euclidean: Geometry<D, N>,
+{
+    let surface = Surface::new(mesh, points, options)?;
+    let count = |side: Side| Number::Count(surface.sides().iter().filter(|&&other| other == side).count());
+    let [facets, volume, area] = match D {
+        2 => ["curve_edges", "area", "length"],
+        _ => ["surface_triangles", "volume", "area"],
+    };
+    let [pieces, cavities] = surface.dropped();
+    let mut numbers = vec![
+        ("vertices", Number::Count(surface.vertices().len())),
+        (facets, Number::Count(surface.facets().len())),
+        (volume, Number::Real(surface.volume())),
+        (area, Number::Real(surface.area())),
+        ("components", Number::Count(surface.components())),
+        ("closed", Number::Truth(surface.is_closed())),
+        ("on_surface", count(Side::On)),
+        ("inside", count(Side::Inside)),
+        ("outside", count(Side::Outside)),
+        ("dropped_pieces", Number::Count(pieces)),
+        ("filled_cavities", Number::Count(cavities)),
+    ];
+    if D == 3 {
+        numbers.insert(5, ("genus", Number::Count(surface.genus())));
+    }
+    Ok(Found { result: surface, numbers })
+}
+
+/// Returns the vertices in the precision of the points: some formats are smaller for single precision.
+fn in_precision_of<const D: usize>(points: Points<'_, D>, vertices: &[[f64; D]]) -> PointBuf<D> {
+    match points {
+        Points::F32(_) => PointBuf::F32(vertices.iter().map(|p| p.map(|x| x as f32)).collect()),
+        Points::F64(_) => PointBuf::F64(vertices.to_vec()),
+    }
+}
+
+fn write_triangles<const D: usize, const K: usize>(
+    format: SurfaceFormat,
+    to: &mut dyn io::Write,
+    points: Points<'_, D>,
+    triangles: &[[u32; K]],
+) -> io::Result<()> {
+    let triangles: Vec<[u32; 3]> = triangles.iter().map(|vertices| std::array::from_fn(|k| vertices[k])).collect();
+    format.write_triangles(to, points, &triangles, "surface")
+}

@@ -1,0 +1,151 @@
+//! Circumspheres, and the poles of each vertex (Amenta and Bern, *Surface reconstruction by Voronoi
+//! filtering*, 1999).
+//!
+//! The circumcentres around a vertex are the corners of its Voronoi cell. Near a well sampled surface
+//! the cell is long and thin and perpendicular to the surface, so that its farthest corners on either
+//! side, the *poles*, lie inside and outside of the solid.
+
+use super::super::{complex::Complex, sorted::Sorted};
+use crate::{
+    geometry::{Euclidean, Geometry, circumsphere, facet, vector},
+    index::NO_INDEX,
+    mesh::Csr,
+    parallel::{self, Threads},
+};
+
+/// The circumspheres of simplices.
+#[derive(Debug)]
+pub(super) struct Spheres<const D: usize> {
+    pub(super) centers: Vec<[f64; D]>,
+    pub(super) radii: Vec<f64>,
+}
+
+impl<const D: usize> Spheres<D> {
+    pub(super) fn new<const N: usize>(complex: &Complex<'_, D, N>) -> Self
+    where
+        Euclidean: Geometry<D, N>,
+    {
+        let count = complex.simplices.len();
+        let mut spheres = Spheres { centers: vec![[0.0; D]; count], radii: vec![0.0; count] };
+        let lists = (&mut spheres.centers[..], &mut spheres.radii[..]);
+        parallel::for_chunk_pairs(Threads::All, lists, |start, (centers, radii)| {
+            for ((center, radius), t) in centers.iter_mut().zip(radii).zip(start..) {
+                let corners = complex.corners(t);
+                let (offset, length) = circumsphere(&corners);
+                (*center, *radius) = (vector::plus(corners[0], offset), length);
+            }
+        });
+        spheres
+    }
+
+    /// Returns how deeply two spheres intersect: the cosine of the angle between their radii at a
+    /// common point, with the sign that makes it 1 for equal spheres and −1 for spheres that touch
+    /// from outside; less if they are disjoint.
+    pub(super) fn intersection(&self, i: u32, j: u32) -> f64 {
+        let (i, j) = (i as usize, j as usize);
+        let (r, s) = (self.radii[i], self.radii[j]);
+        let squared = vector::squared_norm(vector::minus(self.centers[i], self.centers[j]));
+        (r * r + s * s - squared) / (2.0 * r * s)
+    }
+}
+
+/// The two poles of a vertex, which lie on different sides of the surface.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Poles {
+    /// The simplex with the farthest circumcentre; [`OUTSIDE`] for vertices of the hull.
+    pub(super) first: u32,
+    /// The simplex with the farthest circumcentre in the opposite half-space; [`NO_INDEX`] if there
+    /// is none.
+    pub(super) second: u32,
+    /// The cosine of the angle between the directions to both; at a vertex of the hull, the first one
+    /// is the mean normal.
+    pub(super) cosine: f64,
+}
+
+/// Stands for what is outside the hull as a pole.
+pub(super) const OUTSIDE: u32 = NO_INDEX - 1;
+
+impl Poles {
+    const NONE: Poles = Poles { first: NO_INDEX, second: NO_INDEX, cosine: 0.0 };
+
+    /// Returns the poles of all vertices; none for what is no vertex.
+    pub(super) fn of_all<const D: usize, const N: usize>(
+        mesh: &Sorted<D, N>,
+        spheres: &Spheres<D>,
+        stars: &Csr,
+    ) -> Vec<Poles>
+    where
+        Euclidean: Geometry<D, N>,
+    {
+        let complex = &mesh.complex;
+        let normals = hull_normals(complex);
+        let mut poles = vec![Poles::NONE; complex.points().len()];
+        parallel::for_chunks(Threads::All, &mut poles, |start, chunk| {
+            for (poles, v) in chunk.iter_mut().zip(start as u32..) {
+                *poles = Poles::of(complex, spheres, stars, v, normals[v as usize]);
+            }
+        });
+        poles
+    }
+
+    /// Returns the poles of a vertex; the normal is zero inside the hull.
+    fn of<const D: usize, const N: usize>(
+        complex: &Complex<'_, D, N>,
+        spheres: &Spheres<D>,
+        stars: &Csr,
+        v: u32,
+        normal: [f64; D],
+    ) -> Self
+    where
+        Euclidean: Geometry<D, N>,
+    {
+        let star = stars.of(v);
+        let point = complex.point(v);
+        let to_center = |t: u32| vector::minus(spheres.centers[t as usize], point);
+        // Equal radii are those of equal spheres: in grids many. The vertices decide.
+        let is_farther = |t: u32, than: u32| {
+            let [(r, row), (s, other)] = [t, than].map(|t| (spheres.radii[t as usize], &complex.simplices[t as usize]));
+            r > s || r == s && row < other
+        };
+        let farthest = |best: Option<u32>, t: u32| match best {
+            Some(best) if !is_farther(t, best) => Some(best),
+            _ => Some(t),
+        };
+        let (first, direction) = if normal != [0.0; D] {
+            (OUTSIDE, normal)
+        } else {
+            let Some(first) = star.iter().copied().fold(None, farthest) else { return Poles::NONE };
+            (first, to_center(first))
+        };
+        let is_opposite = |&t: &u32| vector::dot(to_center(t), direction) < 0.0;
+        let second = star.iter().copied().filter(is_opposite).fold(None, farthest);
+        let cosine = second.map_or(0.0, |t| {
+            vector::dot(to_center(t), direction) / (spheres.radii[t as usize] * vector::norm(direction))
+        });
+        Poles { first, second: second.unwrap_or(NO_INDEX), cosine }
+    }
+}
+
+/// Returns for each vertex of the hull the sum of the normals of the hull's facets around it, as long
+/// as these are large; zero for all others.
+fn hull_normals<const D: usize, const N: usize>(complex: &Complex<'_, D, N>) -> Vec<[f64; D]>
+where
+    Euclidean: Geometry<D, N>,
+{
+    let parts = parallel::map_ranges(Threads::All, complex.simplices.len(), |range| {
+        let facets = range.flat_map(|t| (0..N).filter(move |&k| complex.across(t, k).is_none()).map(move |k| (t, k)));
+        facets.map(|(t, k)| facet(&complex.simplices[t], k)).collect::<Vec<[u32; D]>>()
+    });
+    // Sums of numbers that are rounded depend on their order.
+    let mut facets = parallel::joined(parts);
+    parallel::sort(Threads::All, &mut facets);
+    let mut normals = vec![[0.0; D]; complex.points().len()];
+    for facet in facets {
+        let normal = Euclidean::facet_normal(&facet.map(|v| complex.point(v)));
+        for v in facet {
+            let sum = &mut normals[v as usize];
+            *sum = vector::plus(*sum, normal);
+        }
+    }
+    normals
+}
