@@ -18,10 +18,10 @@ fn elements<T: std::str::FromStr>(xml: &str, name: &str, attributes: [&str; 3]) 
     let mut found = Vec::new();
     loop {
         match reader.read_event().expect("well-formed XML") {
-            Event::Empty(element) if element.name().as_ref() == name.as_bytes() => {
+            Event::Empty(element) if element.name().as_ref() == name => {
                 found.push(attributes.map(|attribute| {
                     let value = element.try_get_attribute(attribute).expect("attributes").expect(attribute).value;
-                    String::from_utf8(value.into_owned()).expect("text").parse().ok().expect("a number")
+                    value.parse().ok().expect("a number")
                 }));
             }
             Event::Eof => return found,
