@@ -174,11 +174,13 @@ where
         let mut sources = boundary.sources;
         let sides = sides(&mesh, &is_inside, &sources);
         sources.resize(vertices.len(), NO_INDEX);
+        // The power of the scale may underflow.
+        let unscaled = |measure: f64, power: usize| (0..power).fold(measure, |measure, _| measure / scale);
         Ok(Surface {
             solid: inside().map(|t| mesh.given(complex.simplices[t])).collect(),
             sides,
-            volume: solid::volume(complex, inside()) / scale.powi(D as i32),
-            area: boundary::area(&boundary.facets, &vertices, scale) / scale.powi(D as i32 - 1),
+            volume: unscaled(solid::volume(complex, inside()), D),
+            area: unscaled(boundary::area(&boundary.facets, &vertices, scale), D - 1),
             vertices,
             components,
             sources,
