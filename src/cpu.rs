@@ -79,7 +79,7 @@ pub trait Grow<const D: usize>: Insert<D> + Sized {
     fn reserve(&mut self, simplices: usize) -> Result<(), Error>;
 
     /// Returns the corners and the neighbours of the simplices without unused slots, each as four
-    /// words: infinity is [`NO_INDEX`](crate::index::NO_INDEX), and in 2D the last one is 0.
+    /// words: infinity is [`NONE`](crate::index::NONE), and in 2D the last one is 0.
     fn into_simplices(self) -> Vec<[[u32; 4]; 2]>;
 
     /// Inserts the vertices of a run by several threads. Returns those that the threads could not

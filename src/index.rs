@@ -1,8 +1,11 @@
-//! Indices, and the mark for the absence of one.
+//! The mark for the absence of an index.
 
-/// Marks the absence of a simplex or point in the arrays of a mesh:
-/// [`Mesh3::neighbors`](crate::Mesh3::neighbors) and [`Mesh2::halfedges`](crate::Mesh2::halfedges)
-/// outside the hull, `duplicate_of` for points that are not duplicates.
+/// Marks the absence of a simplex, point or cell in arrays of indices.
+///
+/// It stands in [`Mesh3::neighbors`](crate::Mesh3::neighbors) and
+/// [`Mesh2::halfedges`](crate::Mesh2::halfedges) outside the hull, and in `duplicate_of` for points
+/// that are not duplicates. In JavaScript's signed arrays and in files it is −1, which has the same
+/// bits.
 ///
 /// # Examples
 ///
@@ -12,7 +15,13 @@
 /// assert_eq!(gdel::delaunay2d(&points)?.halfedges, [[gdel::NONE; 3]]);
 /// # Ok::<(), gdel::Error>(())
 /// ```
-pub const NONE: i32 = -1;
+pub const NONE: u32 = u32::MAX;
 
-/// Marks the absence of an index in internal arrays of `u32`: no point, no simplex, no neighbor.
-pub const NO_INDEX: u32 = u32::MAX;
+/// Writes an entry of an array of indices for people: "none" in place of [`NONE`].
+pub(crate) struct Entry(pub(crate) u32);
+
+impl std::fmt::Display for Entry {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        if self.0 == NONE { f.write_str("none") } else { self.0.fmt(f) }
+    }
+}

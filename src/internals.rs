@@ -97,7 +97,7 @@ pub mod gpu {
         pub use crate::gpu::layout::{
             ALL_FREE, Active, BLOCK, CHECK, COUNTER_WORDS, Counters, DONE, DONE_23, EDGE_SHIFT, FACET_SHIFT, FLIP_23,
             FLIP_32, FREE_START, FlipNode, GROWTH_FROM, GROWTH_SHARE, HELD_SHIFT, HISTORY_FULL, KIND_SHIFT, LOGGED,
-            NONE, PARAM_WORDS, Params, Pick, ROUND_SHIFT, SLOT_SHIFT, SLOTS_FULL, SUSPECT_SHIFT, Status, TWICE_GROWTH,
+            PARAM_WORDS, Params, Pick, ROUND_SHIFT, SLOT_SHIFT, SLOTS_FULL, SUSPECT_SHIFT, Status, TWICE_GROWTH,
             Waiting,
         };
     }
@@ -134,9 +134,6 @@ pub mod gpu {
     pub mod update {
         pub use crate::gpu::update::Limits;
     }
-}
-pub mod index {
-    pub use crate::index::{NO_INDEX, NONE};
 }
 pub mod input {
     pub mod lattice {

@@ -1,10 +1,6 @@
 //! What meshes of both dimensions have in common.
 
-use crate::{
-    index::{NO_INDEX, NONE},
-    parallel::Threads,
-    stats::Stats,
-};
+use crate::{index::NONE, parallel::Threads, stats::Stats};
 use std::borrow::Cow;
 
 /// Lists of indices, one after the other in one array: compressed sparse rows.
@@ -75,7 +71,7 @@ impl Csr {
         let mut neighbors = Csr { offsets: Vec::with_capacity(points + 1), indices: Vec::new() };
         neighbors.offsets.push(0);
         // The last vertex whose list each vertex was put into.
-        let mut listed_by = vec![NO_INDEX; points];
+        let mut listed_by = vec![NONE; points];
         for v in 0..points as u32 {
             let start = neighbors.indices.len();
             listed_by[v as usize] = v;
@@ -155,11 +151,11 @@ pub trait Mesh<const D: usize, const N: usize>: sealed::Sealed {
 
     /// Returns for each simplex the simplices opposite its vertices, or [`NONE`](crate::NONE)
     /// outside the hull.
-    fn opposites(&self) -> Cow<'_, [[i32; N]]>;
+    fn opposites(&self) -> Cow<'_, [[u32; N]]>;
 
     /// Returns for each point the one that stands for it, or [`NONE`](crate::NONE) if it is a
     /// vertex itself; for points that were [removed](crate::Triangulator::remove), these themselves.
-    fn duplicate_of(&self) -> &[i32];
+    fn duplicate_of(&self) -> &[u32];
 }
 
 pub(crate) mod sealed {
@@ -169,18 +165,18 @@ pub(crate) mod sealed {
 
 /// Returns for each vertex a simplex that has it, that with the lowest index; [`NONE`] for
 /// duplicates and vertices without simplices.
-pub(crate) fn vertex_simplex<const N: usize>(simplices: &[[u32; N]], points: usize) -> Vec<i32> {
+pub(crate) fn vertex_simplex<const N: usize>(simplices: &[[u32; N]], points: usize) -> Vec<u32> {
     let mut simplex = vec![NONE; points];
     for (t, vertices) in simplices.iter().enumerate().rev() {
         for &v in vertices {
-            simplex[v as usize] = t as i32;
+            simplex[v as usize] = t as u32;
         }
     }
     simplex
 }
 
 /// Returns the index behind an entry of `neighbors` or `duplicate_of`.
-pub(crate) fn index(entry: i32) -> Option<usize> {
+pub(crate) fn index(entry: u32) -> Option<usize> {
     (entry != NONE).then_some(entry as usize)
 }
 
@@ -197,10 +193,10 @@ pub fn canonical<const N: usize>(simplices: &[[u32; N]]) -> Vec<[u32; N]> {
 /// What meshes of both dimensions say of their points and of their run.
 pub trait MeshInfo {
     /// Sets what the mesh says of its points.
-    fn set_input(&mut self, duplicate_of: Vec<i32>, dimension: u8);
+    fn set_input(&mut self, duplicate_of: Vec<u32>, dimension: u8);
 
     /// Returns for each point the one that stands for it.
-    fn duplicate_of(&self) -> &[i32];
+    fn duplicate_of(&self) -> &[u32];
 
     /// Makes vertex *v* `names[v]`, and leaves what has no name, by `threads`.
     fn rename(&mut self, threads: Threads, names: &[u32]);
@@ -218,7 +214,7 @@ pub trait MeshInfo {
     fn stats_mut(&mut self) -> &mut Stats;
 
     /// Returns what the mesh says of its points (the duplicates and the dimension) and of its run.
-    fn into_info(self) -> (Vec<i32>, u8, Stats);
+    fn into_info(self) -> (Vec<u32>, u8, Stats);
 }
 
 /// Implements [`Mesh`], [`MeshInfo`], and methods on `duplicate_of`, which both meshes have, for
@@ -232,21 +228,21 @@ macro_rules! common_methods {
                 &self.$simplices
             }
 
-            fn opposites(&self) -> std::borrow::Cow<'_, [[i32; $N]]> {
+            fn opposites(&self) -> std::borrow::Cow<'_, [[u32; $N]]> {
                 self.opposites()
             }
 
-            fn duplicate_of(&self) -> &[i32] {
+            fn duplicate_of(&self) -> &[u32] {
                 &self.duplicate_of
             }
         }
 
         impl $crate::mesh::MeshInfo for $mesh {
-            fn set_input(&mut self, duplicate_of: Vec<i32>, dimension: u8) {
+            fn set_input(&mut self, duplicate_of: Vec<u32>, dimension: u8) {
                 (self.duplicate_of, self.dimension) = (duplicate_of, dimension);
             }
 
-            fn duplicate_of(&self) -> &[i32] {
+            fn duplicate_of(&self) -> &[u32] {
                 &self.duplicate_of
             }
 
@@ -276,7 +272,7 @@ macro_rules! common_methods {
                 &mut self.stats
             }
 
-            fn into_info(self) -> (Vec<i32>, u8, $crate::stats::Stats) {
+            fn into_info(self) -> (Vec<u32>, u8, $crate::stats::Stats) {
                 (self.duplicate_of, self.dimension, self.stats)
             }
         }
@@ -305,7 +301,7 @@ macro_rules! common_methods {
             ///
             /// Panics if there is no point `i`.
             pub fn is_unused(&self, i: u32) -> bool {
-                self.duplicate_of[i as usize] == i as i32
+                self.duplicate_of[i as usize] == i
             }
 
             /// Returns the vertex that stands for point `i`: `i` itself unless it is a duplicate.
@@ -352,10 +348,10 @@ macro_rules! common_methods {
             /// ```
             pub fn compact(&mut self) -> Vec<u32> {
                 let kept: Vec<u32> = (0..self.duplicate_of.len() as u32).filter(|&i| !self.is_unused(i)).collect();
-                let mut places = vec![$crate::index::NO_INDEX; self.duplicate_of.len()];
+                let mut places = vec![$crate::index::NONE; self.duplicate_of.len()];
                 (0..).zip(&kept).for_each(|(place, &i)| places[i as usize] = place);
                 $crate::mesh::MeshInfo::rename(self, $crate::parallel::Threads::All, &places);
-                let place = |first: i32| places.get(first as usize).map_or(first, |&place| place as i32);
+                let place = |first: u32| places.get(first as usize).copied().unwrap_or(first);
                 self.duplicate_of = kept.iter().map(|&i| place(self.duplicate_of[i as usize])).collect();
                 kept
             }

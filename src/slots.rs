@@ -175,7 +175,7 @@ pub(crate) fn reserve<const N: usize>(
 /// Returns [`Error::OutOfMemory`].
 pub(crate) fn reserve_more<const N: usize>(
     simplices: &mut Vec<[u32; N]>,
-    neighbors: &mut Vec<[i32; N]>,
+    neighbors: &mut Vec<[u32; N]>,
     more: usize,
 ) -> Result<(), Error> {
     let all = simplices.len() + more;

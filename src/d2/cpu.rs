@@ -9,7 +9,7 @@ use crate::{
     },
     dimension::Dimension,
     error::Error,
-    index::NO_INDEX,
+    index::NONE,
     input::{hilbert, order::Curve, points::Points2},
     options::Options,
     parallel::{self, Threads},
@@ -80,7 +80,7 @@ impl Grow<2> for Triangulation2 {
     }
 
     fn into_simplices(self) -> Vec<[[u32; 4]; 2]> {
-        let corner = |v: u32| if v == self.infinite { NO_INDEX } else { v };
+        let corner = |v: u32| if v == self.infinite { NONE } else { v };
         let words = |[a, b, c]: [u32; 3]| [a, b, c, 0];
         let simplices = self.triangles.iter().zip(&self.neighbors);
         simplices.map(|(t, &near)| [words(t.map(corner)), words(near)]).collect()

@@ -29,7 +29,7 @@ impl Edit<2, 3> for Dimension<2> {
 
     fn row(mesh: &Mesh2, winding: Winding, t: u32) -> Option<Row<3>> {
         let halfedges = *mesh.halfedges.get(t as usize)?;
-        let is_there = |e: i32| e == NONE || (0..3 * mesh.triangles.len() as i64).contains(&e.into());
+        let is_there = |e: u32| e == NONE || (e as usize) < 3 * mesh.triangles.len();
         let triangle = *mesh.triangles.get(t as usize)?;
         let row = || (vertices_of_mesh(triangle, winding), edges_of_mesh(halfedges, winding));
         halfedges.into_iter().all(is_there).then(row)

@@ -37,7 +37,7 @@ pub struct Mesh2 {
     pub triangles: Vec<[u32; 3]>,
     /// Entry *k* of each triangle is the half-edge opposite to the one from its vertex *k* to the
     /// next, as 3·(triangle) + (vertex), or [`NONE`](crate::NONE) outside the hull.
-    pub halfedges: Vec<[i32; 3]>,
+    pub halfedges: Vec<[u32; 3]>,
     /// The vertices of the convex hull, including those in the middle of its sides,
     /// counter-clockwise with *y* up from the lowest index. If all points are collinear: the
     /// distinct points in ascending order of x, or of y where all x are equal.
@@ -45,7 +45,7 @@ pub struct Mesh2 {
     /// One entry per point: the lowest index of a point with the same coordinates, which stands for
     /// this one in the mesh; [`NONE`](crate::NONE) for points that are vertices themselves. Points
     /// that were [removed](crate::Triangulator::remove) are unused, and their own duplicates.
-    pub duplicate_of: Vec<i32>,
+    pub duplicate_of: Vec<u32>,
     /// The affine dimension of the input: 2; or 1 or 0 if all points are collinear or equal, in
     /// which case there are no triangles. No points at all have dimension 0.
     pub dimension: u8,
@@ -123,7 +123,7 @@ impl Mesh2 {
     /// assert_eq!(gdel::delaunay2d(&points)?.vertex_triangle(), [0, 0, 0, gdel::NONE]);
     /// # Ok::<(), gdel::Error>(())
     /// ```
-    pub fn vertex_triangle(&self) -> Vec<i32> {
+    pub fn vertex_triangle(&self) -> Vec<u32> {
         mesh::vertex_simplex(&self.triangles, self.duplicate_of.len())
     }
 
@@ -243,8 +243,8 @@ impl Mesh2 {
 
 impl Mesh2 {
     /// Returns for each simplex the simplices opposite its vertices.
-    fn opposites(&self) -> Cow<'_, [[i32; 3]]> {
-        let triangle = |halfedge: i32| if halfedge == NONE { NONE } else { halfedge / 3 };
+    fn opposites(&self) -> Cow<'_, [[u32; 3]]> {
+        let triangle = |halfedge: u32| if halfedge == NONE { NONE } else { halfedge / 3 };
         self.halfedges.iter().map(move |&[ab, bc, ca]| [bc, ca, ab].map(triangle)).collect()
     }
 }

@@ -1,7 +1,7 @@
 //! Triangles and their neighbours under construction, the outside of the hull included.
 
 use crate::{
-    index::{NO_INDEX, NONE},
+    index::NONE,
     options::Winding,
     parallel::{self, Threads},
     slots,
@@ -37,12 +37,12 @@ pub(super) fn vertices_to_mesh(triangle: [u32; 3], winding: Winding) -> [u32; 3]
 }
 
 /// Returns what is across the edges of a triangle of a mesh of this orientation, given its
-/// half-edges; [`NO_INDEX`] outside the hull.
-pub(super) fn edges_of_mesh(halfedges: [i32; 3], winding: Winding) -> [u32; 3] {
-    let mut edges = [NO_INDEX; 3];
+/// half-edges; [`NONE`] outside the hull.
+pub(super) fn edges_of_mesh(halfedges: [u32; 3], winding: Winding) -> [u32; 3] {
+    let mut edges = [NONE; 3];
     for (k, edge) in edge_of_halfedge(winding == Winding::Clockwise).into_iter().enumerate() {
         if halfedges[k] != NONE {
-            edges[edge] = Triangulation2::edge_of_halfedge(halfedges[k] as u32, winding);
+            edges[edge] = Triangulation2::edge_of_halfedge(halfedges[k], winding);
         }
     }
     edges
@@ -50,11 +50,11 @@ pub(super) fn edges_of_mesh(halfedges: [i32; 3], winding: Winding) -> [u32; 3] {
 
 /// Returns the half-edges of a triangle, given what is across its edges: the inverse of
 /// [`edges_of_mesh`].
-pub(super) fn edges_to_mesh(edges: [u32; 3], winding: Winding) -> [i32; 3] {
+pub(super) fn edges_to_mesh(edges: [u32; 3], winding: Winding) -> [u32; 3] {
     let is_clockwise = winding == Winding::Clockwise;
     edge_of_halfedge(is_clockwise).map(|k| match edges[k] {
-        NO_INDEX => NONE,
-        across => (across as usize / 4 * 3 + halfedge_of_edge(is_clockwise)[across as usize % 4]) as i32,
+        NONE => NONE,
+        across => (across as usize / 4 * 3 + halfedge_of_edge(is_clockwise)[across as usize % 4]) as u32,
     })
 }
 
@@ -91,7 +91,7 @@ impl Triangulation2 {
     /// per edge of the hull follows.
     pub fn from_mesh(
         triangles: Vec<[u32; 3]>,
-        halfedges: Vec<[i32; 3]>,
+        halfedges: Vec<[u32; 3]>,
         hull: &[u32],
         infinite: u32,
         winding: Winding,
@@ -104,7 +104,7 @@ impl Triangulation2 {
 
     fn read<const CLOCKWISE: bool>(
         mut triangles: Vec<[u32; 3]>,
-        halfedges: Vec<[i32; 3]>,
+        halfedges: Vec<[u32; 3]>,
         hull: &[u32],
         infinite: u32,
     ) -> Self {
@@ -117,13 +117,13 @@ impl Triangulation2 {
         for i in 0..hull.len() {
             ghost_from[clockwise_hull(i) as usize] = ghost(i);
         }
-        let mut neighbors: Vec<[u32; 3]> = bytemuck::cast_vec(halfedges);
+        let mut neighbors = halfedges;
         neighbors.extend((0..hull.len()).map(|i| [4 * ghost(i + 1) + 1, 4 * ghost(i + hull.len() - 1), 0]));
         for t in 0..count {
             let halfedges = neighbors[t];
             for (k, edge) in edge_of_halfedge(CLOCKWISE).into_iter().enumerate() {
                 neighbors[t][edge] = match halfedges[k] {
-                    NO_INDEX => {
+                    NONE => {
                         let first = if CLOCKWISE { k } else { (k + 1) % 3 };
                         let ghost = ghost_from[triangles[t][first] as usize];
                         neighbors[ghost as usize][2] = (4 * t + edge) as u32;
@@ -195,7 +195,7 @@ impl Triangulation2 {
         names: &[u32],
         winding: Winding,
         threads: Threads,
-    ) -> (Vec<[u32; 3]>, Vec<[i32; 3]>, Vec<u32>) {
+    ) -> (Vec<[u32; 3]>, Vec<[u32; 3]>, Vec<u32>) {
         match winding {
             Winding::CounterClockwise => self.write::<false>(names, threads),
             Winding::Clockwise => self.write::<true>(names, threads),
@@ -206,7 +206,7 @@ impl Triangulation2 {
         mut self,
         names: &[u32],
         threads: Threads,
-    ) -> (Vec<[u32; 3]>, Vec<[i32; 3]>, Vec<u32>) {
+    ) -> (Vec<[u32; 3]>, Vec<[u32; 3]>, Vec<u32>) {
         let winding = if CLOCKWISE { Winding::Clockwise } else { Winding::CounterClockwise };
         let slots = self.triangles.len();
         let ghosts = parallel::map_ranges(threads, slots, |range| {
@@ -222,8 +222,8 @@ impl Triangulation2 {
         hull.rotate_left(lowest);
         for &t in &ghosts {
             for across in self.neighbors[t as usize] {
-                if across != NO_INDEX {
-                    self.neighbors[across as usize / 4][across as usize % 4] = NO_INDEX;
+                if across != NONE {
+                    self.neighbors[across as usize / 4][across as usize % 4] = NONE;
                 }
             }
         }
@@ -236,7 +236,7 @@ impl Triangulation2 {
             self.triangles[gap] = self.triangles[last];
             self.neighbors[gap] = self.neighbors[last];
             for (across, k) in self.neighbors[gap].into_iter().zip(0..) {
-                if across != NO_INDEX {
+                if across != NONE {
                     self.neighbors[across as usize / 4][across as usize % 4] = 4 * gap as u32 + k;
                 }
             }
@@ -249,13 +249,12 @@ impl Triangulation2 {
                 *t = vertex_order(CLOCKWISE).map(|k| names[t[k] as usize]);
             }
         });
-        let mut halfedges: Vec<[i32; 3]> = bytemuck::cast_vec(neighbors);
-        parallel::for_chunks(threads, &mut halfedges, |_, chunk| {
+        parallel::for_chunks(threads, &mut neighbors, |_, chunk| {
             for edges in chunk {
-                *edges = edges_to_mesh(edges.map(|across| across as u32), winding);
+                *edges = edges_to_mesh(*edges, winding);
             }
         });
-        (triangles, halfedges, hull)
+        (triangles, neighbors, hull)
     }
 }
 

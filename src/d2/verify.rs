@@ -8,7 +8,7 @@ use crate::verify::{
 use crate::{
     d2::Mesh2,
     error::Error,
-    index::NONE,
+    index::{Entry, NONE},
     input::points::Points2,
     predicates::{
         incircle, orient2d,
@@ -36,14 +36,14 @@ pub struct MeshView2<'a> {
     /// The vertices of each triangle: see [`Mesh2::triangles`].
     pub triangles: &'a [[u32; 3]],
     /// The opposite half-edges: see [`Mesh2::halfedges`].
-    pub halfedges: Option<&'a [[i32; 3]]>,
+    pub halfedges: Option<&'a [[u32; 3]]>,
     /// Entry *k* is the triangle across the edge opposite vertex *k*, as in Triangle's files;
     /// [`NONE`] on the hull.
-    pub neighbors: Option<&'a [[i32; 3]]>,
+    pub neighbors: Option<&'a [[u32; 3]]>,
     /// The vertices of the hull, from any of them on: see [`Mesh2::hull`].
     pub hull: Option<&'a [u32]>,
     /// The points that stand for duplicates: see [`Mesh2::duplicate_of`].
-    pub duplicate_of: Option<&'a [i32]>,
+    pub duplicate_of: Option<&'a [u32]>,
     /// The affine dimension of the points: see [`Mesh2::dimension`].
     pub dimension: Option<u8>,
 }
@@ -198,7 +198,7 @@ fn check_hull(stated: &[u32], expected: Vec<u32>) -> Findings {
 struct Complex<'a> {
     triangles: &'a [[u32; 3]],
     /// The half-edge against each; [`NONE`] where there is none.
-    halfedges: Vec<[i32; 3]>,
+    halfedges: Vec<[u32; 3]>,
     /// The half-edges without one against them, by their ends.
     hull: Vec<[u32; 2]>,
     vertices: usize,
@@ -224,8 +224,8 @@ impl<'a> Complex<'a> {
             match *around {
                 [(.., e)] => complex.hull.push(complex.ends(e)),
                 [(.., e), (.., f)] if complex.ends(e) != complex.ends(f) => {
-                    complex.halfedges[e as usize / 3][e as usize % 3] = f as i32;
-                    complex.halfedges[f as usize / 3][f as usize % 3] = e as i32;
+                    complex.halfedges[e as usize / 3][e as usize % 3] = f;
+                    complex.halfedges[f as usize / 3][f as usize % 3] = e;
                 }
                 [(a, b, e), ..] => findings.add(|| {
                     let detail = match around.len() {
@@ -249,7 +249,7 @@ impl<'a> Complex<'a> {
         [t[k], t[(k + 1) % 3]]
     }
 
-    fn check_halfedges(&self, stated: &[[i32; 3]], findings: &mut Findings) {
+    fn check_halfedges(&self, stated: &[[u32; 3]], findings: &mut Findings) {
         if stated.len() != self.triangles.len() {
             let detail = format!("half-edges of {} triangles, not of {}", stated.len(), self.triangles.len());
             findings.add(|| Defect::in_mesh(detail));
@@ -258,14 +258,19 @@ impl<'a> Complex<'a> {
         for (t, (stated, expected)) in stated.iter().zip(&self.halfedges).enumerate() {
             for k in 0..3 {
                 if stated[k] != expected[k] {
-                    let detail = format!("half-edge {} has {} against it, not {}", 3 * t + k, expected[k], stated[k]);
+                    let detail = format!(
+                        "half-edge {} has {} against it, not {}",
+                        3 * t + k,
+                        Entry(expected[k]),
+                        Entry(stated[k])
+                    );
                     findings.add(|| Defect::at_triangle(t, detail));
                 }
             }
         }
     }
 
-    fn check_neighbors(&self, stated: &[[i32; 3]], findings: &mut Findings) {
+    fn check_neighbors(&self, stated: &[[u32; 3]], findings: &mut Findings) {
         if stated.len() != self.triangles.len() {
             let detail = format!("neighbors of {} triangles, not of {}", stated.len(), self.triangles.len());
             findings.add(|| Defect::in_mesh(detail));
@@ -276,7 +281,8 @@ impl<'a> Complex<'a> {
                 // The edge opposite vertex k begins at the next.
                 let expected = if across[(k + 1) % 3] == NONE { NONE } else { across[(k + 1) % 3] / 3 };
                 if stated[k] != expected {
-                    let detail = format!("the neighbor opposite vertex {k} is {expected}, not {}", stated[k]);
+                    let detail =
+                        format!("the neighbor opposite vertex {k} is {}, not {}", Entry(expected), Entry(stated[k]));
                     findings.add(|| Defect::at_triangle(t, detail));
                 }
             }
@@ -289,8 +295,9 @@ impl<'a> Complex<'a> {
         let at = |v: u32| points[v as usize];
         for (t, (&[a, b, c], across)) in self.triangles.iter().zip(&self.halfedges).enumerate() {
             for &e in across {
-                let Ok(e) = usize::try_from(e) else { continue };
-                if e / 3 < t {
+                let e = e as usize;
+                // Not the hull, and each edge once.
+                if e == NONE as usize || e / 3 < t {
                     continue;
                 }
                 let beyond = self.triangles[e / 3][(e + 2) % 3];

@@ -9,7 +9,7 @@ use crate::{
     },
     dimension::Dimension,
     error::Error,
-    index::NO_INDEX,
+    index::NONE,
     input::{hilbert, order::Curve, points::Points3},
     options::Options,
     parallel::{self, Threads},
@@ -88,7 +88,7 @@ impl Grow<3> for Triangulation3 {
         let used: Vec<u32> = (0..self.tetrahedra.len() as u32).filter(|&t| is_used(t)).collect();
         let mut number = vec![0; self.tetrahedra.len()];
         (0..).zip(&used).for_each(|(i, &t)| number[t as usize] = i);
-        let corner = |v: u32| if v == self.infinite { NO_INDEX } else { v };
+        let corner = |v: u32| if v == self.infinite { NONE } else { v };
         let across = |f: u32| 4 * number[f as usize / 4] + f % 4;
         used.iter().map(|&t| [self.vertices(t).map(corner), self.neighbors[t as usize].map(across)]).collect()
     }

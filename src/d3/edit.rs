@@ -9,7 +9,7 @@ use crate::{
     },
     dimension::Dimension,
     error::Error,
-    index::{NO_INDEX, NONE},
+    index::NONE,
     options::Winding,
     predicates::filter::PredicateContext3,
     slots,
@@ -28,11 +28,11 @@ impl Edit<3, 4> for Dimension<3> {
     }
 
     fn row(mesh: &Mesh3, _winding: Winding, t: u32) -> Option<Row<4>> {
-        let mut row = [NO_INDEX; 4];
+        let mut row = [NONE; 4];
         for (across, &u) in row.iter_mut().zip(mesh.neighbors.get(t as usize)?) {
             if u != NONE {
                 let back = mesh.neighbors.get(u as usize)?;
-                *across = 4 * u as u32 + back.iter().position(|&back| back == t as i32)? as u32;
+                *across = 4 * u + back.iter().position(|&back| back == t)? as u32;
             }
         }
         Some((*mesh.tetrahedra.get(t as usize)?, row))
@@ -42,8 +42,8 @@ impl Edit<3, 4> for Dimension<3> {
     fn beyond(mesh: &Mesh3, _winding: Winding, facet: u32, across: u32) -> Option<[u32; 4]> {
         let [t, u] = [facet, across].map(|facet| facet >> 2);
         let back = mesh.neighbors.get(u as usize)?[across as usize & 3];
-        let place = mesh.neighbors.get(t as usize)?.iter().position(|&v| v == u as i32)?;
-        if back == t as i32 && place == facet as usize & 3 { mesh.tetrahedra.get(u as usize).copied() } else { None }
+        let place = mesh.neighbors.get(t as usize)?.iter().position(|&v| v == u)?;
+        if back == t && place == facet as usize & 3 { mesh.tetrahedra.get(u as usize).copied() } else { None }
     }
 
     fn ghost(simplex: [u32; 4], k: usize, infinite: u32) -> [u32; 4] {
@@ -81,7 +81,7 @@ impl Edit<3, 4> for Dimension<3> {
         mesh.neighbors.resize(room, [NONE; 4]);
         for (t, (vertices, across)) in rows {
             mesh.tetrahedra[t as usize] = vertices;
-            mesh.neighbors[t as usize] = across.map(|f| if f == NO_INDEX { NONE } else { (f / 4) as i32 });
+            mesh.neighbors[t as usize] = across.map(|f| if f == NONE { NONE } else { f / 4 });
         }
         mesh.tetrahedra.truncate(count);
         mesh.neighbors.truncate(count);

@@ -47,13 +47,13 @@ pub struct Mesh3 {
     pub tetrahedra: Vec<[u32; 4]>,
     /// Entry *k* of each tetrahedron is the tetrahedron across its facet *k*, or [`NONE`] outside
     /// the hull.
-    pub neighbors: Vec<[i32; 4]>,
+    pub neighbors: Vec<[u32; 4]>,
     /// The triangles of the convex hull's boundary, counter-clockwise as seen from outside.
     pub hull: Vec<[u32; 3]>,
     /// One entry per point: the lowest index of a point with the same coordinates, which stands for
     /// this one in the mesh; [`NONE`] for points that are vertices themselves. Points
     /// that were [removed](crate::Triangulator::remove) are unused, and their own duplicates.
-    pub duplicate_of: Vec<i32>,
+    pub duplicate_of: Vec<u32>,
     /// The affine dimension of the input: 3; or 2, 1 or 0 if all points are coplanar, collinear or
     /// equal, in which case there are no tetrahedra. No points at all have dimension 0.
     pub dimension: u8,
@@ -172,7 +172,7 @@ impl Mesh3 {
     /// assert_eq!(gdel::delaunay3d(&points)?.vertex_tetrahedron(), [0, 0, 0, 0, gdel::NONE]);
     /// # Ok::<(), gdel::Error>(())
     /// ```
-    pub fn vertex_tetrahedron(&self) -> Vec<i32> {
+    pub fn vertex_tetrahedron(&self) -> Vec<u32> {
         mesh::vertex_simplex(&self.tetrahedra, self.duplicate_of.len())
     }
 
@@ -279,7 +279,7 @@ impl Mesh3 {
 
 impl Mesh3 {
     /// Returns for each simplex the simplices opposite its vertices.
-    fn opposites(&self) -> Cow<'_, [[i32; 4]]> {
+    fn opposites(&self) -> Cow<'_, [[u32; 4]]> {
         Cow::Borrowed(&self.neighbors)
     }
 }

@@ -1,7 +1,7 @@
 //! Tetrahedra and their neighbours under construction, the outside of the hull included.
 
 use crate::{
-    index::{NO_INDEX, NONE},
+    index::NONE,
     parallel::{self, Threads},
     slots::{self, MarkedSlots},
 };
@@ -153,7 +153,7 @@ impl Triangulation3 {
         let ghosts: Vec<u32> = gaps.iter().flat_map(|gaps| &gaps.ghosts).take_while(in_front).copied().collect();
         let moves: Vec<[u32; 2]> =
             unused.chain(&ghosts).copied().zip(movers.into_iter().flatten()).map(Into::into).collect();
-        let mut moved_to = vec![NO_INDEX; slots - count];
+        let mut moved_to = vec![NONE; slots - count];
         for &[gap, last] in &moves {
             moved_to[last as usize - count] = gap;
         }
@@ -173,7 +173,7 @@ impl Triangulation3 {
         parallel::map_ranges(threads, ghosts.len(), |range| {
             for &t in &ghosts[range] {
                 let inside = neighbors[4 * t as usize + 3].load(Relaxed);
-                neighbors[inside as usize].store(NO_INDEX, Relaxed);
+                neighbors[inside as usize].store(NONE, Relaxed);
             }
         });
         // Nobody else writes into the gap, or into the references to what moves there.
@@ -185,7 +185,7 @@ impl Triangulation3 {
                     let across = neighbors[from].load(Relaxed);
                     let beside = (across as usize / 4).checked_sub(count);
                     let across = match beside.map(|beside| moved_to.get(beside)) {
-                        Some(Some(&NO_INDEX) | None) => across,
+                        Some(Some(&NONE) | None) => across,
                         Some(Some(&gap)) => 4 * gap + across % 4,
                         None => {
                             neighbors[across as usize].store(to as u32, Relaxed);
@@ -205,12 +205,11 @@ impl Triangulation3 {
             parallel::for_chunks(threads, &mut tetrahedra, |_, chunk| chunk.iter_mut().flatten().for_each(rename));
             parallel::for_chunks(threads, &mut hull, |_, chunk| chunk.iter_mut().flatten().for_each(rename));
         }
-        let mut neighbors: Vec<[i32; 4]> = bytemuck::cast_vec(neighbors);
         // Below 2³⁰, like all indices of tetrahedra.
-        let count = count as i32;
+        let count = count as u32;
         parallel::for_chunks(threads, &mut neighbors, |_, chunk| {
             for n in chunk.as_flattened_mut() {
-                let across = (*n as u32 >> 2) as i32;
+                let across = *n >> 2;
                 *n = if across < count { across } else { NONE };
             }
         });
@@ -276,7 +275,7 @@ pub struct FiniteMesh {
     /// Four vertices per tetrahedron; see [`Mesh3::tetrahedra`](crate::Mesh3::tetrahedra).
     pub tetrahedra: Vec<[u32; 4]>,
     /// Four neighbours per tetrahedron; see [`Mesh3::neighbors`](crate::Mesh3::neighbors).
-    pub neighbors: Vec<[i32; 4]>,
+    pub neighbors: Vec<[u32; 4]>,
     /// Three vertices per facet of the hull; see [`Mesh3::hull`](crate::Mesh3::hull).
     pub hull: Vec<[u32; 3]>,
 }

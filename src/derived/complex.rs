@@ -17,8 +17,8 @@ pub struct Complex<'a, const D: usize, const N: usize> {
     pub(crate) points: Coordinates<'a, D>,
     pub(crate) simplices: Cow<'a, [[u32; N]]>,
     /// Entry *k* is opposite vertex *k*, in 2D too.
-    pub(crate) neighbors: Cow<'a, [[i32; N]]>,
-    pub(crate) duplicate_of: Cow<'a, [i32]>,
+    pub(crate) neighbors: Cow<'a, [[u32; N]]>,
+    pub(crate) duplicate_of: Cow<'a, [u32]>,
 }
 
 /// The coordinates of a mesh's points.
@@ -44,8 +44,7 @@ impl<'a, const D: usize, const N: usize> Complex<'a, D, N> {
         if neighbors.len() != simplices.len() || simplices.len() > i32::MAX as usize {
             return broken("there are not as many neighbours as simplices");
         }
-        // As `u32`, other negative numbers exceed every count.
-        let is_index = |entry: i32, count: usize| entry == NONE || (entry as u32 as usize) < count;
+        let is_index = |entry: u32, count: usize| entry == NONE || (entry as usize) < count;
         let are_valid = parallel::map_ranges(Threads::All, simplices.len(), |range| {
             let vertices = simplices[range.clone()].as_flattened().iter();
             let neighbors = neighbors[range].as_flattened().iter();
@@ -84,7 +83,7 @@ impl<'a, const D: usize, const N: usize> Complex<'a, D, N> {
 
     /// Returns the vertices of simplex `t` and its neighbours.
     #[inline(always)]
-    pub(crate) fn row(&self, t: usize) -> ([u32; N], [i32; N]) {
+    pub(crate) fn row(&self, t: usize) -> ([u32; N], [u32; N]) {
         (self.simplices[t], self.neighbors[t])
     }
 
@@ -127,7 +126,7 @@ impl<'a, const D: usize, const N: usize> Complex<'a, D, N> {
     pub(crate) fn facet_towards(&self, u: usize, t: usize) -> usize {
         let mut facet = N;
         for (k, &neighbor) in self.neighbors[u].iter().enumerate() {
-            if neighbor == t as i32 {
+            if neighbor == t as u32 {
                 facet = k;
             }
         }
@@ -138,7 +137,7 @@ impl<'a, const D: usize, const N: usize> Complex<'a, D, N> {
     pub(crate) fn representative(&self, i: u32) -> u32 {
         match self.duplicate_of[i as usize] {
             NONE => i,
-            vertex => vertex as u32,
+            vertex => vertex,
         }
     }
 }

@@ -295,7 +295,7 @@ where
 
     /// Continues a walk across facet `k`, or returns that it ends there, outside the hull.
     #[inline(always)]
-    fn cross(&self, step: &mut Step<D>, k: usize, across: i32) -> Result<Option<Place>, Error> {
+    fn cross(&self, step: &mut Step<D>, k: usize, across: u32) -> Result<Option<Place>, Error> {
         let &mut Step { simplex, left, .. } = step;
         if across == NONE {
             return Ok(Some(Place { simplex, beyond: Some(k), on_facet: false }));
@@ -303,7 +303,7 @@ where
         if left == 0 {
             return Err(ENDLESS);
         }
-        *step = Step { simplex: across as usize, before: simplex as i32, left: left - 1, ..*step };
+        *step = Step { simplex: across as usize, before: simplex as u32, left: left - 1, ..*step };
         Ok(None)
     }
 
@@ -326,7 +326,7 @@ where
     /// less that nothing could predict. With every step the power distance of the query to the
     /// circumsphere decreases, perturbed as the triangulation's ties are, so it ends.
     #[inline(always)]
-    fn take(&self, step: &mut Step<D>, corners: &[[f64; D]; N], neighbors: &[i32; N]) -> Result<Option<Place>, Error> {
+    fn take(&self, step: &mut Step<D>, corners: &[[f64; D]; N], neighbors: &[u32; N]) -> Result<Option<Place>, Error> {
         let &mut Step { query, bound, simplex, before, .. } = step;
         let determinants = Euclidean::facet_determinants(&vector::relative(corners, query));
         let (mut exit, mut least, mut is_open) = (None, -bound, false);
@@ -419,7 +419,7 @@ const ENDLESS: Error = Error::BrokenMesh { reason: "a walk over it does not end"
 const WALKS: usize = 16;
 
 /// No simplex that a walk has come from: neither one of the mesh nor [`NONE`].
-const NO_SIMPLEX: i32 = i32::MIN;
+const NO_SIMPLEX: u32 = NONE - 1;
 
 /// Where a walk to a query is.
 #[derive(Debug, Clone, Copy)]
@@ -429,7 +429,7 @@ struct Step<const D: usize> {
     bound: f64,
     simplex: usize,
     /// The simplex that it has come from.
-    before: i32,
+    before: u32,
     /// The number of steps that it may take.
     left: usize,
 }

@@ -49,7 +49,7 @@ where
         });
         let simplices = parallel::order_of(Threads::All, firsts);
         let places = inverse(&simplices);
-        let rank_or_none = |i: i32, ranks: &[u32]| if i == NONE { NONE } else { ranks[i as usize] as i32 };
+        let rank_or_none = |i: u32, ranks: &[u32]| if i == NONE { NONE } else { ranks[i as usize] };
         let sorted = Complex {
             points: Coordinates::Owned(map(points.len(), |rank| complex.point(points[rank]))),
             simplices: Cow::Owned(map(simplices.len(), |place| {

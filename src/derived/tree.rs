@@ -4,7 +4,7 @@ use super::{complex::Complex, sets::DisjointSets};
 use crate::{
     error::Error,
     geometry::{Euclidean, Geometry, SquaredLength, compare_lengths, surely_larger, vector},
-    index::{NO_INDEX, NONE},
+    index::NONE,
     input::points::Points,
     mesh::Mesh,
     parallel::{self, Threads},
@@ -44,7 +44,7 @@ pub struct SpanningTree {
     pub lengths: Vec<f64>,
     /// For each point, the one that stands for it, or [`NONE`](crate::NONE) if it is a vertex
     /// itself; an unused one stands for itself.
-    duplicate_of: Vec<i32>,
+    duplicate_of: Vec<u32>,
 }
 
 /// An edge that may be one of the tree.
@@ -105,7 +105,7 @@ impl SpanningTree {
     }
 
     /// Returns the single-linkage clusters that are left without the longest edges, as many as
-    /// wanted if there are enough vertices: for each point the number of its cluster, `u32::MAX` for
+    /// wanted if there are enough vertices: for each point the number of its cluster, [`NONE`](crate::NONE) for
     /// [unused](crate::Mesh3::is_unused) ones. Clusters are counted in the order of their first
     /// points.
     pub fn clusters(&self, count: usize) -> Vec<u32> {
@@ -113,7 +113,7 @@ impl SpanningTree {
     }
 
     /// Returns the single-linkage clusters that are left without the edges longer than `distance`:
-    /// for each point the number of its cluster, `u32::MAX` for [unused](crate::Mesh3::is_unused)
+    /// for each point the number of its cluster, [`NONE`](crate::NONE) for [unused](crate::Mesh3::is_unused)
     /// ones. Clusters are counted in the order of their first points.
     pub fn clusters_within(&self, distance: f64) -> Vec<u32> {
         self.label(self.lengths.partition_point(|&length| length <= distance))
@@ -128,9 +128,9 @@ impl SpanningTree {
         let mut labels = vec![0; self.duplicate_of.len()];
         let mut count = 0;
         for (i, &duplicate_of) in (0..).zip(&self.duplicate_of) {
-            let first = sets.find(if duplicate_of == NONE { i } else { duplicate_of as u32 });
-            if duplicate_of == i as i32 {
-                labels[i as usize] = NO_INDEX;
+            let first = sets.find(if duplicate_of == NONE { i } else { duplicate_of });
+            if duplicate_of == i {
+                labels[i as usize] = NONE;
             } else if first == i {
                 labels[i as usize] = count;
                 count += 1;

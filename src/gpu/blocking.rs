@@ -16,7 +16,7 @@ where
     /// # Errors
     ///
     /// Returns the errors of `read`.
-    pub fn read_vertex_simplex(&self) -> Result<Vec<i32>, Error> {
+    pub fn read_vertex_simplex(&self) -> Result<Vec<u32>, Error> {
         block_on(self.read_vertex_simplex_async())
     }
 }

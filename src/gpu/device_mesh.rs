@@ -65,7 +65,7 @@ pub trait MeshArrays<const D: usize>: Incremental<D> {
     fn words(mesh: &Self::Mesh) -> [&[u32]; 3];
 
     /// Returns the lowest simplex of each point.
-    fn vertex_simplex(mesh: &Self::Mesh) -> Vec<i32>;
+    fn vertex_simplex(mesh: &Self::Mesh) -> Vec<u32>;
 
     /// Gives the arrays that are among `outputs` room for `simplices` simplices and a hull of
     /// `hull` elements, and empties the others. Returns their bytes.
@@ -165,7 +165,7 @@ pub struct DeviceMesh<const D: usize> {
     /// Shares the staging buffers of the runs.
     readback: Readback,
     arrays: DeviceArrays,
-    duplicate_of: Vec<i32>,
+    duplicate_of: Vec<u32>,
     /// Whether some points are unused: their own duplicates.
     has_unused: bool,
     /// The vertices of the first simplex of the run that made the mesh, if it was one of the device.
@@ -189,7 +189,7 @@ impl<const D: usize> DeviceMesh<D> {
     }
 
     /// Returns the buffer of the neighbours, −1 outside the hull: four tetrahedra per tetrahedron
-    /// (`vec4<i32>`), as [`Mesh3::neighbors`](crate::Mesh3::neighbors), or three half-edges per
+    /// (`vec4<u32>`), as [`Mesh3::neighbors`](crate::Mesh3::neighbors), or three half-edges per
     /// triangle, as [`Mesh2::halfedges`](crate::Mesh2::halfedges).
     pub fn neighbors(&self) -> &wgpu::Buffer {
         self.arrays.neighbors.buffer()
@@ -202,7 +202,7 @@ impl<const D: usize> DeviceMesh<D> {
         self.arrays.hull.buffer()
     }
 
-    /// Returns the buffer of the lowest simplex of each point (`i32`), −1 for duplicates.
+    /// Returns the buffer of the lowest simplex of each point (`u32`), [`NONE`](crate::NONE) for duplicates.
     pub fn vertex_simplex(&self) -> &wgpu::Buffer {
         self.arrays.vertex_simplices.buffer()
     }
@@ -224,7 +224,7 @@ impl<const D: usize> DeviceMesh<D> {
 
     /// Returns for each point the one that stands for it, as
     /// [`Mesh3::duplicate_of`](crate::Mesh3::duplicate_of): the host has it in any case.
-    pub fn duplicate_of(&self) -> &[i32] {
+    pub fn duplicate_of(&self) -> &[u32] {
         &self.duplicate_of
     }
 
@@ -336,7 +336,7 @@ impl<const D: usize> DeviceMesh<D> {
     /// # Errors
     ///
     /// Returns the errors of `read`.
-    pub async fn read_vertex_simplex_async(&self) -> Result<Vec<i32>, Error> {
+    pub async fn read_vertex_simplex_async(&self) -> Result<Vec<u32>, Error> {
         let mut array = Vec::new();
         let bytes = with_len(&mut array, self.arrays.vertex_simplices.len())?;
         self.readback.clone().read_into(&self.gpu, vec![(self.vertex_simplex(), bytes)]).await?;

@@ -570,11 +570,11 @@ where
 }
 
 /// Returns the duplicates, each with the vertex that stands for it.
-fn duplicates(duplicate_of: &[i32]) -> Vec<[u32; 2]> {
+fn duplicates(duplicate_of: &[u32]) -> Vec<[u32; 2]> {
     let parts = parallel::map_ranges(Threads::All, duplicate_of.len(), |range| {
         let of_range = range.clone().zip(&duplicate_of[range]);
         let duplicates = of_range.filter(|&(_, &first)| first != NONE);
-        duplicates.map(|(v, &first)| [v as u32, first as u32]).collect::<Vec<_>>()
+        duplicates.map(|(v, &first)| [v as u32, first]).collect::<Vec<_>>()
     });
     parallel::joined(parts)
 }

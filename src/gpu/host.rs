@@ -367,8 +367,8 @@ impl Merged {
     pub(crate) fn missing<const D: usize>(
         &self,
         points: Points<'_, D>,
-        prepared: Vec<i32>,
-    ) -> (Vec<[u32; 2]>, Vec<i32>) {
+        prepared: Vec<u32>,
+    ) -> (Vec<[u32; 2]>, Vec<u32>) {
         let mut duplicate_of = prepared;
         if duplicate_of.len() != points.len() {
             duplicate_of = parallel::filled(Threads::All, points.len(), NONE);

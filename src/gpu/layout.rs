@@ -18,13 +18,15 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use crate::gpu::shader::{
-    assert_layout,
-    constants::{common, d3},
+use crate::{
+    gpu::shader::{
+        assert_layout,
+        constants::{common, d3},
+    },
+    index::NONE,
 };
 
-/// Marks the absence of a tetrahedron, a node or a vertex.
-pub const NONE: u32 = common::NONE;
+const _: () = assert!(common::NONE == NONE, "kernels and host have the same mark");
 
 /// Slots in a block.
 pub const BLOCK: u32 = common::BLOCK;

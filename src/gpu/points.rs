@@ -136,7 +136,7 @@ pub struct DevicePoints {
     pub vertices: Storage<i32>,
     /// Sort key and point of each vertex.
     pub pairs: Storage<[u32; 2]>,
-    /// For each point the one that stands for it, or `u32::MAX` if it is a vertex itself.
+    /// For each point the one that stands for it, or [`NONE`](crate::NONE) if it is a vertex itself.
     pub merged_into: Storage<u32>,
     /// For each point its place in the order.
     pub vertex_of: Storage<u32>,

@@ -8,7 +8,7 @@ use crate::cpu::{Grow, Incremental, insert_all};
 use crate::dimension::Dimension;
 use crate::error::Error;
 use crate::gpu::dim::{Corners, Dim};
-use crate::index::NO_INDEX;
+use crate::index::NONE;
 use crate::input::lattice::{Coordinate, Lattice, Width};
 use crate::input::order::{Distinct, Order, insertion_order, mix};
 use crate::input::points::Points;
@@ -120,7 +120,7 @@ pub struct StartMesh {
     /// The points, by place in the input, each with one of its simplices.
     pub points: Vec<[u32; 2]>,
     /// The corners of each simplex, by place among `points`, where
-    /// [`NO_INDEX`](crate::index::NO_INDEX) is infinity; and its neighbours, 4·simplex + facet. In
+    /// [`NONE`](crate::index::NONE) is infinity; and its neighbours, 4·simplex + facet. In
     /// 2D the last of them is 0. All are positively oriented if infinity lies opposite to the
     /// interior point. There are no more of them than the points have slots.
     pub simplices: Vec<[[u32; 4]; 2]>,
@@ -210,7 +210,7 @@ impl StartMesh {
             let corners = &corners[..=D];
             let orientation = Dimension::<D>::orient(lattice.width(), &corners.iter().map(place).collect::<Vec<_>>());
             // The interior point takes the place of infinity, which is on the other side.
-            if corners.contains(&NO_INDEX) { orientation < 0 } else { orientation > 0 }
+            if corners.contains(&NONE) { orientation < 0 } else { orientation > 0 }
         })
     }
 
@@ -218,7 +218,7 @@ impl StartMesh {
         let simplices = triangulation.into_simplices();
         let mut points: Vec<[u32; 2]> = points.map(|i| [i, 0]).collect();
         for (k, [corners, _]) in (0..).zip(&simplices) {
-            if !corners.contains(&NO_INDEX) {
+            if !corners.contains(&NONE) {
                 corners[..=D].iter().for_each(|&v| points[v as usize][1] = k);
             }
         }

@@ -26,7 +26,7 @@ pub(crate) struct Distinct {
     /// The parts of `order`, each of which goes along the curve.
     pub(crate) rounds: Vec<Range<u32>>,
     /// One entry per point, as in [`Mesh3::duplicate_of`](crate::Mesh3::duplicate_of).
-    pub(crate) duplicate_of: Vec<i32>,
+    pub(crate) duplicate_of: Vec<u32>,
 }
 
 /// Maps the coordinates of a cell, and how many of their bits count, to the cell's place along a
@@ -69,7 +69,7 @@ fn along_curve<const D: usize>(
     points: Points<'_, D>,
     lattice: &Lattice<D>,
     curve: Curve<D>,
-    duplicate_of: &mut [i32],
+    duplicate_of: &mut [u32],
 ) -> (Vec<u64>, usize) {
     let bits = lattice.width().bits();
     // The key takes this many bits of each coordinate, so that it fits beside an index in 64 bits.
@@ -91,7 +91,7 @@ fn along_curve<const D: usize>(
     let mut parts = parts(threads, &mut keyed);
     let duplicates = parallel::map_mut(threads, &mut parts, |_, part| sort_runs(points, part, bits, key_bits, key));
     for &[duplicate, first] in duplicates.iter().flatten() {
-        duplicate_of[duplicate as usize] = first as i32;
+        duplicate_of[duplicate as usize] = first;
     }
     let distinct = keyed.len() - duplicates.iter().map(Vec::len).sum::<usize>();
     (keyed, distinct)
@@ -177,13 +177,13 @@ pub(crate) fn sort_by_place<const D: usize>(points: Points<'_, D>, entries: &mut
 pub(crate) fn missing_points<const D: usize>(
     points: Points<'_, D>,
     merged: &[[u32; 2]],
-    duplicate_of: &mut [i32],
+    duplicate_of: &mut [u32],
 ) -> Vec<[u32; 2]> {
     let point = |i: u32| points.get(i as usize);
     let mut apart = Vec::new();
     for &[i, representative] in merged {
         if point(i) == point(representative) {
-            duplicate_of[i as usize] = representative as i32;
+            duplicate_of[i as usize] = representative;
         } else {
             apart.push(u64::from(representative) << 32 | u64::from(i));
         }
@@ -193,7 +193,7 @@ pub(crate) fn missing_points<const D: usize>(
     for entry in apart {
         let (representative, i) = ((entry >> 32) as u32, entry as u32);
         match missing.last() {
-            Some(&[first, _]) if point(first) == point(i) => duplicate_of[i as usize] = first as i32,
+            Some(&[first, _]) if point(first) == point(i) => duplicate_of[i as usize] = first,
             _ => missing.push([i, representative]),
         }
     }

@@ -3,7 +3,7 @@
 use crate::verify::report::{Check, Defect, Findings, Report};
 use crate::{
     error::Error,
-    index::{NO_INDEX, NONE},
+    index::{Entry, NONE},
     input::points::Points,
     parallel::{self, Threads},
     predicates::{orient2d, orient3d},
@@ -14,7 +14,7 @@ use std::cmp::Ordering;
 pub(crate) struct Input<const D: usize> {
     /// The exact coordinates, duplicates included.
     pub(crate) points: Vec<[f64; D]>,
-    /// For each point the lowest index with the same coordinates; [`NO_INDEX`] for points that are
+    /// For each point the lowest index with the same coordinates; [`NONE`] for points that are
     /// unused.
     representative: Vec<u32>,
     /// The number of points without duplicates and unused ones.
@@ -28,7 +28,7 @@ impl<const D: usize> Input<D> {
     /// own duplicates; `affine_dimension` computes their dimension.
     pub(crate) fn new(
         points: Points<'_, D>,
-        duplicate_of: Option<&[i32]>,
+        duplicate_of: Option<&[u32]>,
         affine_dimension: fn(&[[f64; D]]) -> u8,
     ) -> Result<Self, Error> {
         points.validate_by(Threads::All)?;
@@ -39,7 +39,7 @@ impl<const D: usize> Input<D> {
         // Adding zero turns −0 into 0, which is the same coordinate.
         let points: Vec<[f64; D]> = points.iter().map(|p| p.map(|x| x + 0.0)).collect();
         let stated = duplicate_of.unwrap_or_default();
-        let is_used = |i: u32| stated.get(i as usize) != Some(&(i as i32));
+        let is_used = |i: u32| stated.get(i as usize) != Some(&i);
         let used: Vec<u32> = (0..points.len() as u32).filter(|&i| is_used(i)).collect();
         let dimension = if used.len() == points.len() {
             affine_dimension(&points)
@@ -52,11 +52,11 @@ impl<const D: usize> Input<D> {
     }
 
     /// Begins the report on a mesh that states this dimension and these duplicates.
-    pub(crate) fn report(&self, dimension: Option<u8>, duplicate_of: Option<&[i32]>) -> Report {
+    pub(crate) fn report(&self, dimension: Option<u8>, duplicate_of: Option<&[u32]>) -> Report {
         let mut report = Report { dimension: self.dimension, ..Report::default() };
         report.counts.points = self.points.len();
         report.counts.distinct_points = self.distinct;
-        report.counts.unused_points = self.representative.iter().filter(|&&r| r == NO_INDEX).count();
+        report.counts.unused_points = self.representative.iter().filter(|&&r| r == NONE).count();
         report.decide(Check::Dimension, || dimension.map(|d| self.check_dimension(d)));
         report.decide(Check::Duplicates, || duplicate_of.map(|d| self.check_duplicates(d)));
         report
@@ -72,7 +72,7 @@ impl<const D: usize> Input<D> {
         findings
     }
 
-    fn check_duplicates(&self, stated: &[i32]) -> Findings {
+    fn check_duplicates(&self, stated: &[u32]) -> Findings {
         let mut findings = Findings::default();
         if stated.len() != self.points.len() {
             findings.add(|| Defect::in_mesh(format!("{} entries for {} points", stated.len(), self.points.len())));
@@ -80,13 +80,17 @@ impl<const D: usize> Input<D> {
         }
         for (i, (&stated, &representative)) in stated.iter().zip(&self.representative).enumerate() {
             let expected = match representative {
-                NO_INDEX => i as i32,
+                NONE => i as u32,
                 representative if representative as usize == i => NONE,
-                representative => representative as i32,
+                representative => representative,
             };
             if stated != expected {
                 findings.add(|| {
-                    let detail = format!("the mesh states {stated} as the point that stands for it, not {expected}");
+                    let detail = format!(
+                        "the mesh states {} as the point that stands for it, not {}",
+                        Entry(stated),
+                        Entry(expected)
+                    );
                     Defect::at_point(i, detail)
                 });
             }
@@ -110,7 +114,7 @@ impl<const D: usize> Input<D> {
                 let representative = self.representative[v as usize];
                 if representative != v {
                     let detail = || match representative {
-                        NO_INDEX => format!("vertex {v} is a point that the mesh states to be unused"),
+                        NONE => format!("vertex {v} is a point that the mesh states to be unused"),
                         first => format!("vertex {v} is a duplicate of point {first}, which stands for it"),
                     };
                     findings.add(|| blame(t, detail()));
@@ -142,12 +146,12 @@ fn compare<const D: usize>(a: &[f64; D], b: &[f64; D]) -> Ordering {
 }
 
 /// Returns for each point the lowest index with the same coordinates among those in `order`;
-/// [`NO_INDEX`] for those that are not.
+/// [`NONE`] for those that are not.
 fn representatives<const D: usize>(points: &[[f64; D]], mut order: Vec<u32>) -> Vec<u32> {
     let coordinates = |i: u32| points[i as usize];
     let by_place = |&i: &u32, &j: &u32| compare(&coordinates(i), &coordinates(j)).then(i.cmp(&j));
     parallel::sort_by(Threads::All, &mut order, by_place);
-    let mut representative = vec![NO_INDEX; points.len()];
+    let mut representative = vec![NONE; points.len()];
     for equal in order.chunk_by(|&i, &j| coordinates(i) == coordinates(j)) {
         for &i in equal {
             representative[i as usize] = equal[0];

@@ -7,7 +7,7 @@ use crate::broken::{
 };
 use crate::oracle::definition2;
 use gdel::{
-    Error, Mesh2, MeshView2, delaunay2d,
+    Error, Mesh2, MeshView2, NONE, delaunay2d,
     internals::{
         d2::generate::{Distribution2, generate2d},
         mesh,
@@ -73,22 +73,22 @@ fn other_arrays(broken: &mut BrokenMeshes) {
     broken.changed(Check::Dimension, "dimension 3 of a square", &square, Mesh, |m| m.dimension = 3);
 
     let duplicates = Check::Duplicates;
-    broken.changed(duplicates, "duplicate not stated", &doubled, Point(9), |m| m.duplicate_of[9] = -1);
+    broken.changed(duplicates, "duplicate not stated", &doubled, Point(9), |m| m.duplicate_of[9] = NONE);
     broken.changed(duplicates, "duplicate of another point", &doubled, Point(10), |m| m.duplicate_of[10] = 2);
-    broken.changed(duplicates, "duplicate of none", &doubled, Point(10), |m| m.duplicate_of[10] = i32::MIN);
+    broken.changed(duplicates, "duplicate of none", &doubled, Point(10), |m| m.duplicate_of[10] = u32::MAX - 1);
     broken.changed(duplicates, "duplicates of too few points", &doubled, Mesh, |m| m.duplicate_of.truncate(9));
 
     let halfedges = Check::Neighbors;
     let inner = |m: &Mesh2| {
         let all = (0..m.halfedges.len()).flat_map(|t| (0..3).map(move |k| (t, k)));
-        all.into_iter().find(|&(t, k)| m.halfedges[t][k] >= 0).unwrap()
+        all.into_iter().find(|&(t, k)| m.halfedges[t][k] != NONE).unwrap()
     };
     let (t, _) = inner(&right(&square));
     broken.changed(halfedges, "half-edges of too few triangles", &square, Mesh, |m| m.halfedges.truncate(5));
-    broken.changed(halfedges, "half-edges of too many triangles", &square, Mesh, |m| m.halfedges.push([-1; 3]));
+    broken.changed(halfedges, "half-edges of too many triangles", &square, Mesh, |m| m.halfedges.push([NONE; 3]));
     broken.changed(halfedges, "one-way adjacency", &square, Triangle(t), |m| {
         let (t, k) = inner(m);
-        m.halfedges[t][k] = -1;
+        m.halfedges[t][k] = NONE;
     });
     broken.changed(halfedges, "another half-edge of the right triangle", &square, Triangle(t), |m| {
         let (t, k) = inner(m);
@@ -97,9 +97,9 @@ fn other_arrays(broken: &mut BrokenMeshes) {
     });
     broken.changed(halfedges, "half-edge out of range", &square, Triangle(t), |m| {
         let (t, k) = inner(m);
-        m.halfedges[t][k] = i32::MAX;
+        m.halfedges[t][k] = i32::MAX as u32;
     });
-    broken.changed(halfedges, "another mark for outside", &CORNER, Triangle(0), |m| m.halfedges[0][2] = -2);
+    broken.changed(halfedges, "another mark for outside", &CORNER, Triangle(0), |m| m.halfedges[0][2] = NONE - 1);
     broken.changed(halfedges, "half-edges in another order", &square, Triangle(0), |m| m.halfedges[0].rotate_left(1));
 
     let hull = Check::Hull;
@@ -191,7 +191,7 @@ fn hulls(broken: &mut BrokenMeshes) {
     let convex = Check::HullConvex;
     let square = square();
     let mesh = right(&square);
-    let at_hull = mesh.halfedges.iter().position(|h| h.contains(&-1)).unwrap();
+    let at_hull = mesh.halfedges.iter().position(|h| h.contains(&NONE)).unwrap();
     let mut dented = mesh.triangles.clone();
     let missing = dented.remove(at_hull);
     // The vertex of the triangle that was missing, behind the hull's edge.
@@ -329,7 +329,11 @@ fn apply(change: Change, mesh: &mut Mesh2, points: usize) {
         Change::OfSimplices(change) => change.apply(triangles, points),
         Change::Flip(e) => {
             let e = e.index(mesh.halfedges.len() * 3);
-            let Ok(f) = usize::try_from(mesh.halfedges[e / 3][e % 3]) else { return };
+            let f = mesh.halfedges[e / 3][e % 3];
+            if f == NONE {
+                return;
+            }
+            let f = f as usize;
             if e / 3 < count && f / 3 < count {
                 let ([a, b, c], d) = ([0, 1, 2].map(|k| triangles[e / 3][(e + k) % 3]), triangles[f / 3][(f + 2) % 3]);
                 (triangles[e / 3], triangles[f / 3]) = ([c, a, d], [d, b, c]);
@@ -367,10 +371,10 @@ proptest! {
     fn any_garbage_gets_a_report(
         points in prop::collection::vec(prop::array::uniform2(any::<f64>().prop_filter("finite", |x| x.is_finite())), 0..9),
         triangles in prop::collection::vec(prop::array::uniform3(prop_oneof![20 => 0..9u32, 1 => any::<u32>()]), 0..9),
-        halfedges in prop::option::of(prop::collection::vec(any::<[i32; 3]>(), 0..9)),
-        neighbors in prop::option::of(prop::collection::vec(any::<[i32; 3]>(), 0..9)),
+        halfedges in prop::option::of(prop::collection::vec(any::<[u32; 3]>(), 0..9)),
+        neighbors in prop::option::of(prop::collection::vec(any::<[u32; 3]>(), 0..9)),
         hull in prop::option::of(prop::collection::vec(any::<u32>(), 0..9)),
-        duplicate_of in prop::option::of(prop::collection::vec(any::<i32>(), 0..9)),
+        duplicate_of in prop::option::of(prop::collection::vec(any::<u32>(), 0..9)),
         dimension in any::<Option<u8>>(),
     ) {
         let mut statement = MeshView2::of_triangles(&triangles);

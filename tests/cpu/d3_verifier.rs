@@ -7,7 +7,7 @@ use crate::broken::{
 };
 use crate::oracle::{self, definition};
 use gdel::{
-    Error, Mesh3, MeshView3, delaunay3d,
+    Error, Mesh3, MeshView3, NONE, delaunay3d,
     internals::{
         d3::generate::{Distribution3, generate3d},
         mesh,
@@ -59,35 +59,35 @@ fn other_arrays(broken: &mut BrokenMeshes) {
     broken.changed(Check::Dimension, "dimension 1 of nothing", &[], Mesh, |m| m.dimension = 1);
 
     let duplicates = Check::Duplicates;
-    broken.changed(duplicates, "duplicate not stated", &doubled, Point(8), |m| m.duplicate_of[8] = -1);
+    broken.changed(duplicates, "duplicate not stated", &doubled, Point(8), |m| m.duplicate_of[8] = NONE);
     broken.changed(duplicates, "duplicate of another point", &doubled, Point(9), |m| m.duplicate_of[9] = 2);
-    broken.changed(duplicates, "duplicate of none", &doubled, Point(9), |m| m.duplicate_of[9] = i32::MIN);
+    broken.changed(duplicates, "duplicate of none", &doubled, Point(9), |m| m.duplicate_of[9] = u32::MAX - 1);
     broken.changed(duplicates, "duplicates of too few points", &doubled, Mesh, |m| m.duplicate_of.truncate(9));
     broken.changed(duplicates, "highest index stands for all", &doubled, Point(2), |m| {
         m.duplicate_of[2] = 8;
-        m.duplicate_of[8] = -1;
+        m.duplicate_of[8] = NONE;
     });
 
     let neighbors = Check::Neighbors;
     let inner = |m: &Mesh3| {
         let (t, k) = (0..m.neighbors.len())
             .flat_map(|t| (0..4).map(move |k| (t, k)))
-            .find(|&(t, k)| m.neighbors[t][k] >= 0)
+            .find(|&(t, k)| m.neighbors[t][k] != NONE)
             .unwrap();
         (t, k)
     };
     broken.changed(neighbors, "neighbors of too few tetrahedra", &cube, Mesh, |m| m.neighbors.truncate(5));
-    broken.changed(neighbors, "neighbors of too many tetrahedra", &cube, Mesh, |m| m.neighbors.push([-1; 4]));
+    broken.changed(neighbors, "neighbors of too many tetrahedra", &cube, Mesh, |m| m.neighbors.push([NONE; 4]));
     let (t, _) = inner(&right(&cube));
     broken.changed(neighbors, "one-way adjacency", &cube, Tetrahedron(t), |m| {
         let (t, k) = inner(m);
-        m.neighbors[t][k] = -1;
+        m.neighbors[t][k] = NONE;
     });
     broken.changed(neighbors, "neighbor out of range", &cube, Tetrahedron(t), |m| {
         let (t, k) = inner(m);
-        m.neighbors[t][k] = i32::MAX;
+        m.neighbors[t][k] = i32::MAX as u32;
     });
-    broken.changed(neighbors, "another mark for outside", &CORNER, Tetrahedron(0), |m| m.neighbors[0][2] = -2);
+    broken.changed(neighbors, "another mark for outside", &CORNER, Tetrahedron(0), |m| m.neighbors[0][2] = NONE - 1);
     broken.changed(neighbors, "neighbors in another order", &cube, Tetrahedron(0), |m| m.neighbors[0].rotate_left(1));
 
     let hull = Check::Hull;
@@ -365,9 +365,9 @@ proptest! {
     fn any_garbage_gets_a_report(
         points in prop::collection::vec(prop::array::uniform3(any::<f64>().prop_filter("finite", |x| x.is_finite())), 0..9),
         tetrahedra in prop::collection::vec(prop::array::uniform4(prop_oneof![20 => 0..9u32, 1 => any::<u32>()]), 0..9),
-        neighbors in prop::option::of(prop::collection::vec(any::<[i32; 4]>(), 0..9)),
+        neighbors in prop::option::of(prop::collection::vec(any::<[u32; 4]>(), 0..9)),
         hull in prop::option::of(prop::collection::vec(any::<[u32; 3]>(), 0..9)),
-        duplicate_of in prop::option::of(prop::collection::vec(any::<i32>(), 0..9)),
+        duplicate_of in prop::option::of(prop::collection::vec(any::<u32>(), 0..9)),
         dimension in any::<Option<u8>>(),
     ) {
         let mut statement = MeshView3::of_tetrahedra(&tetrahedra);

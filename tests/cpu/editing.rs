@@ -2,7 +2,7 @@
 
 use crate::{clouds, degenerate, motions};
 use gdel::{
-    Backend, Editable, Error, Mesh2, Mesh3, Points2, Points3, Triangulator,
+    Backend, Editable, Error, Mesh2, Mesh3, NONE, Points2, Points3, Triangulator,
     internals::{
         Options,
         cpu::edit::{Again, edit},
@@ -27,7 +27,7 @@ fn cpu() -> Triangulator {
 struct Answer {
     simplices: Vec<Vec<u32>>,
     hull: Vec<Vec<u32>>,
-    duplicate_of: Vec<i32>,
+    duplicate_of: Vec<u32>,
     dimension: u8,
 }
 
@@ -139,9 +139,9 @@ impl<const D: usize, M: Case<D>> Model<D, M> {
         let name = |v: &mut u32| *v = names[*v as usize];
         answer.simplices.iter_mut().flatten().for_each(name);
         answer.hull.iter_mut().flatten().for_each(name);
-        let mut duplicate_of: Vec<i32> = (0..self.points.len() as i32).collect();
+        let mut duplicate_of: Vec<u32> = (0..self.points.len() as u32).collect();
         for (&name, &first) in names.iter().zip(&answer.duplicate_of) {
-            duplicate_of[name as usize] = if first < 0 { first } else { names[first as usize] as i32 };
+            duplicate_of[name as usize] = if first == NONE { first } else { names[first as usize] };
         }
         answer.duplicate_of = duplicate_of;
         answer
@@ -361,13 +361,13 @@ fn duplicates_take_the_place_of_others<const D: usize, M: Case<D>>() {
     // One that stands for nobody, then two of which one does.
     model.remove([45]);
     model.remove([47, 7]);
-    assert_eq!(model.mesh.answer().duplicate_of[27], -1);
+    assert_eq!(model.mesh.answer().duplicate_of[27], NONE);
     model.insert([model.points[3], model.points[7], model.points[7], model.points[45]]);
     assert_eq!(model.mesh.answer().duplicate_of[60..], [23, 27, 27, 5]);
     // All of them.
     model.remove([23, 43, 60]);
     model.insert([model.points[3], model.points[3]]);
-    assert_eq!(model.mesh.answer().duplicate_of[64..], [-1, 64]);
+    assert_eq!(model.mesh.answer().duplicate_of[64..], [NONE, 64]);
     assert_eq!(model.repaired, 6);
 }
 
@@ -573,7 +573,7 @@ fn broken_meshes_are_no_reason_to_panic() {
         |mesh, t| mesh.tetrahedra[t][1] = mesh.tetrahedra[t][0],
         |mesh, t| mesh.tetrahedra[t].swap(0, 1),
         |mesh, t| mesh.neighbors[t][0] = 1 << 30,
-        |mesh, t| mesh.neighbors[t][0] = -7,
+        |mesh, t| mesh.neighbors[t][0] = NONE - 6,
         |mesh, t| mesh.neighbors[t].swap(0, 1),
         |mesh, t| mesh.tetrahedra.truncate(t),
         |mesh, t| mesh.neighbors.truncate(t),
@@ -603,7 +603,7 @@ fn broken_meshes_are_no_reason_to_panic() {
         |mesh, t| mesh.triangles[t][1] = mesh.triangles[t][0],
         |mesh, t| mesh.triangles[t].swap(0, 1),
         |mesh, t| mesh.halfedges[t][0] = 1 << 30,
-        |mesh, t| mesh.halfedges[t][0] = -7,
+        |mesh, t| mesh.halfedges[t][0] = NONE - 6,
         |mesh, t| mesh.halfedges[t].swap(0, 1),
         |mesh, t| mesh.triangles.truncate(t),
         |mesh, t| mesh.halfedges.truncate(t),
@@ -637,7 +637,7 @@ fn the_verifier_knows_unused_points() {
     assert_eq!((counts.points, counts.distinct_points, counts.unused_points, counts.vertices), (30, 28, 2, 28));
     // One that is used after all.
     let mut wrong = mesh.clone();
-    wrong.duplicate_of[3] = -1;
+    wrong.duplicate_of[3] = NONE;
     assert!(!verify3d(&points, &wrong).expect("verifies").passed());
     // One that is used in spite of that.
     let mut wrong = mesh.clone();

@@ -3,7 +3,7 @@
 
 use crate::clouds::{self, grid, shuffled, survey};
 use gdel::{
-    Mesh3, Points3,
+    Mesh3, NONE, Points3,
     internals::{
         Options,
         cpu::delaunay_in_order,
@@ -155,7 +155,7 @@ fn zero_and_minus_zero_are_the_same_coordinate() {
     let points =
         [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [-0.0, 0.0, -0.0], [1.0, -0.0, 0.0]];
     let mesh = check(&points, 3);
-    assert_eq!(mesh.duplicate_of, [-1, -1, -1, -1, 0, 1]);
+    assert_eq!(mesh.duplicate_of, [NONE, NONE, NONE, NONE, 0, 1]);
     assert_eq!(mesh.tetrahedra.len(), 1);
 }
 

@@ -70,7 +70,7 @@ fn assert_stars<const N: usize>(stars: &Csr, simplices: &[[u32; N]], points: usi
 }
 
 fn assert_points(
-    duplicate_of: &[i32],
+    duplicate_of: &[u32],
     vertices: impl Iterator<Item = u32>,
     is_duplicate: impl Fn(u32) -> bool,
     representative: impl Fn(u32) -> u32,

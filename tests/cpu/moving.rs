@@ -9,7 +9,7 @@ fn cpu() -> Triangulator {
 }
 
 /// The simplices, the hull, the duplicates and the dimension: all that points determine.
-type Answer = (Vec<Vec<u32>>, Vec<Vec<u32>>, Vec<i32>, u8);
+type Answer = (Vec<Vec<u32>>, Vec<Vec<u32>>, Vec<u32>, u8);
 
 /// A dimension's meshes.
 trait Case<const D: usize>: Editable<D> + Clone {

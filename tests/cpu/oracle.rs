@@ -95,7 +95,7 @@ pub struct Definition {
     /// The tetrahedra in the form of [`gdel::Mesh3::canonical`].
     pub tetrahedra: Vec<[u32; 4]>,
     /// See [`gdel::Mesh3::duplicate_of`].
-    pub duplicate_of: Vec<i32>,
+    pub duplicate_of: Vec<u32>,
     /// See [`gdel::Mesh3::dimension`].
     pub dimension: u8,
 }
@@ -105,7 +105,8 @@ pub fn definition(points: &[[f64; 3]]) -> Definition {
     let points = integers(points);
     let first_equal = |p: &[BigInt; 3]| points.iter().position(|q| p == q).unwrap();
     let representatives: Vec<usize> = points.iter().map(first_equal).collect();
-    let duplicate_of = representatives.iter().enumerate().map(|(i, &r)| if r == i { -1 } else { r as i32 }).collect();
+    let duplicate_of =
+        representatives.iter().enumerate().map(|(i, &r)| if r == i { gdel::NONE } else { r as u32 }).collect();
     let distinct: Vec<u32> = (0..points.len()).filter(|&i| representatives[i] == i).map(|i| i as u32).collect();
     let point = |i: u32| &points[i as usize];
     let mut tetrahedra = Vec::new();
@@ -151,7 +152,7 @@ pub struct Definition2 {
     /// The triangles in the form of [`gdel::Mesh2::canonical`].
     pub triangles: Vec<[u32; 3]>,
     /// See [`gdel::Mesh2::duplicate_of`].
-    pub duplicate_of: Vec<i32>,
+    pub duplicate_of: Vec<u32>,
     /// See [`gdel::Mesh2::dimension`].
     pub dimension: u8,
 }
@@ -160,7 +161,8 @@ pub struct Definition2 {
 pub fn definition2(points: &[[f64; 2]]) -> Definition2 {
     let points = integers(points);
     let representatives: Vec<usize> = points.iter().map(|p| points.iter().position(|q| p == q).unwrap()).collect();
-    let duplicate_of = representatives.iter().enumerate().map(|(i, &r)| if r == i { -1 } else { r as i32 }).collect();
+    let duplicate_of =
+        representatives.iter().enumerate().map(|(i, &r)| if r == i { gdel::NONE } else { r as u32 }).collect();
     let distinct: Vec<u32> = (0..points.len()).filter(|&i| representatives[i] == i).map(|i| i as u32).collect();
     let point = |i: u32| &points[i as usize];
     let mut triangles = Vec::new();

@@ -50,10 +50,10 @@ fn points_that_are_not_those_of_the_mesh_are_errors() {
     broken.tetrahedra[5][1] = points.len() as u32;
     assert!(errors(&broken, &points).iter().all(is_broken));
     let mut broken = mesh.clone();
-    broken.neighbors[5][1] = mesh.tetrahedra.len() as i32;
+    broken.neighbors[5][1] = mesh.tetrahedra.len() as u32;
     assert!(errors(&broken, &points).iter().all(is_broken));
     let mut broken = mesh;
-    broken.duplicate_of[3] = points.len() as i32;
+    broken.duplicate_of[3] = points.len() as u32;
     assert!(errors(&broken, &points).iter().all(is_broken));
 
     let (_, points) = inputs2().swap_remove(0);
@@ -127,16 +127,16 @@ fn meshes_of_other_points_neither_panic_nor_hang() {
 fn arrays_that_contradict_each_other_neither_panic_nor_hang() {
     let (_, points) = inputs3().swap_remove(0);
     let mut mesh = mesh3(&points);
-    let count = mesh.tetrahedra.len() as i32;
+    let count = mesh.tetrahedra.len() as u32;
     for (t, neighbors) in mesh.neighbors.iter_mut().enumerate() {
-        neighbors[t % 4] = (7 * t as i32 + 3) % count;
+        neighbors[t % 4] = (7 * t as u32 + 3) % count;
     }
     ask_everything(&mesh, &points);
     let mut mesh = mesh3(&points);
     mesh.neighbors.iter_mut().for_each(|neighbors| *neighbors = [gdel::NONE; 4]);
     ask_everything(&mesh, &points);
     let mut mesh = mesh3(&points);
-    (0..10).for_each(|i| mesh.duplicate_of[i] = ((i + 1) % 10) as i32);
+    (0..10).for_each(|i| mesh.duplicate_of[i] = ((i + 1) % 10) as u32);
     ask_everything(&mesh, &points);
     let mut mesh = mesh3(&points);
     mesh.tetrahedra.iter_mut().for_each(|tetrahedron| *tetrahedron = [tetrahedron[0]; 4]);
@@ -144,9 +144,9 @@ fn arrays_that_contradict_each_other_neither_panic_nor_hang() {
 
     let (_, points) = inputs2().swap_remove(0);
     let mut mesh = mesh2(&points);
-    let count = 3 * mesh.triangles.len() as i32;
+    let count = 3 * mesh.triangles.len() as u32;
     for (t, halfedges) in mesh.halfedges.iter_mut().enumerate() {
-        halfedges[t % 3] = (7 * t as i32 + 3) % count;
+        halfedges[t % 3] = (7 * t as u32 + 3) % count;
     }
     ask_everything(&mesh, &points);
     let mut mesh = mesh2(&points);

@@ -8,7 +8,7 @@ fn check_topology<const D: usize, const N: usize>(
     name: &str,
     mesh: &impl Mesh<D, N>,
     neighbors: &Csr,
-    vertex_simplex: &[i32],
+    vertex_simplex: &[u32],
 ) {
     let points = mesh.duplicate_of().len();
     assert_eq!((neighbors.len(), neighbors.is_empty(), vertex_simplex.len()), (points, points == 0, points), "{name}");
@@ -16,15 +16,15 @@ fn check_topology<const D: usize, const N: usize>(
         let star: Vec<_> = (0..mesh.simplices().len()).filter(|&t| mesh.simplices()[t].contains(&v)).collect();
         let around: BTreeSet<u32> = star.iter().flat_map(|&t| mesh.simplices()[t]).filter(|&w| w != v).collect();
         assert_eq!(neighbors.of(v), around.into_iter().collect::<Vec<_>>(), "{name}");
-        assert_eq!(vertex_simplex[v as usize], star.first().map_or(-1, |&t| t as i32), "{name}");
+        assert_eq!(vertex_simplex[v as usize], star.first().map_or(gdel::NONE, |&t| t as u32), "{name}");
     }
     // What is opposite a vertex has the other vertices.
     for (t, (simplex, opposites)) in mesh.simplices().iter().zip(&*mesh.opposites()).enumerate() {
         for (k, &u) in opposites.iter().enumerate() {
-            if u >= 0 {
+            if u != gdel::NONE {
                 let other = mesh.simplices()[u as usize];
                 assert!((0..N).all(|l| other.contains(&simplex[l]) == (l != k)), "{name}");
-                assert!(mesh.opposites()[u as usize].contains(&(t as i32)), "{name}");
+                assert!(mesh.opposites()[u as usize].contains(&(t as u32)), "{name}");
             }
         }
     }

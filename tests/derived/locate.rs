@@ -106,7 +106,7 @@ fn meshes_that_are_none_neither_panic_nor_hang() {
     mesh.triangles[5][1] = points.len() as u32;
     assert!(matches!(Locator::new(&mesh, &points), Err(Error::BrokenMesh { .. })));
     let mut mesh = mesh2(&points);
-    mesh.halfedges[5][1] = 3 * mesh.triangles.len() as i32;
+    mesh.halfedges[5][1] = 3 * mesh.triangles.len() as u32;
     assert!(matches!(Locator::new(&mesh, &points), Err(Error::BrokenMesh { .. })));
     let mut mesh = mesh2(&points);
     mesh.halfedges.pop();

@@ -66,7 +66,7 @@ fn check_cells<const D: usize, const N: usize>(
             assert!(
                 cells[neighbor as usize].volume == 0.0
                     || cell.areas[f] < 1e-6 * size.powi(D as i32 - 1)
-                    || cells[neighbor as usize].neighbors.contains(&(i as i32)),
+                    || cells[neighbor as usize].neighbors.contains(&(i as u32)),
                 "{} {neighbor}",
                 at()
             );
@@ -143,7 +143,7 @@ where
         // Unbounded cells share their unbounded facets.
         for (&area, &neighbor) in cell.areas.iter().zip(&cell.neighbors) {
             assert!(area.is_finite() || on_hull == &true && !cells[neighbor as usize].is_bounded, "{name}");
-            assert!(cells[neighbor as usize].neighbors.contains(&(i as i32)), "{name}");
+            assert!(cells[neighbor as usize].neighbors.contains(&(i as u32)), "{name}");
         }
     }
 

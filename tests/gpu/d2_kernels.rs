@@ -6,10 +6,11 @@
 
 use crate::kernels::{Device, listed, shuffled};
 use crate::states::read_counters;
+use gdel::NONE;
 use gdel::internals::{
     d2::gpu::aliases::Aliases,
     gpu::{
-        layout::{DONE, NONE, Pick},
+        layout::{DONE, Pick},
         phase1::Aliases as _,
         start::{StartMesh, first_simplex},
     },

@@ -35,8 +35,8 @@ fn valid(points: &[[i64; 2]], settings: Settings) -> State {
     assert_eq!(mesh.triangles.len() + mesh.hull.len() + 2, 2 * count);
     let (halfedges, from) = (mesh.halfedges.as_flattened(), mesh.triangles.as_flattened());
     let to = |e: usize| from[e / 3 * 3 + (e + 1) % 3];
-    for (e, &against) in halfedges.iter().enumerate().filter(|&(_, &against)| against >= 0) {
-        assert_eq!(halfedges[against as usize], e as i32);
+    for (e, &against) in halfedges.iter().enumerate().filter(|&(_, &against)| against != gdel::NONE) {
+        assert_eq!(halfedges[against as usize], e as u32);
         assert_eq!([from[e], to(e)], [to(against as usize), from[against as usize]]);
     }
     state

@@ -5,10 +5,11 @@
 //! again, so that each is compared on its own.
 
 use crate::kernels::{Device, listed, shuffled};
+use gdel::NONE;
 use gdel::internals::{
     gpu::{
         Storage,
-        layout::{CHECK, Counters, DONE, LOGGED, NONE, Pick},
+        layout::{CHECK, Counters, DONE, LOGGED, Pick},
         start::{Start, StartMesh, first_simplex},
     },
     input::lattice::{Lattice, Width},

@@ -3,7 +3,7 @@
 
 use crate::kernels::Kernels;
 use gdel::{
-    Error, Mesh3,
+    Error, Mesh3, NONE,
     internals::{
         Options, cpu,
         d3::{
@@ -40,9 +40,9 @@ fn slots(mesh: &Mesh3, unused: usize) -> Slots {
     for (t, across) in (0..).zip(&mesh.neighbors) {
         for k in 0..4 {
             let u = across[k];
-            neighbors[t][k] = if u >= 0 {
-                let face = mesh.neighbors[u as usize].iter().position(|&back| back == t as i32).expect("mutual");
-                4 * u as u32 + face as u32
+            neighbors[t][k] = if u != NONE {
+                let face = mesh.neighbors[u as usize].iter().position(|&back| back == t as u32).expect("mutual");
+                4 * u + face as u32
             } else {
                 let ghost = tetrahedra.len() as u32;
                 let [a, b, c] = FACETS[k].map(|corner| mesh.tetrahedra[t][corner]);
@@ -113,7 +113,7 @@ fn essence(mesh: &FiniteMesh) -> (Vec<Vec<[u32; 4]>>, Vec<[u32; 3]>) {
         .map(|(&tet, across)| {
             let mut near: Vec<(u32, [u32; 4])> = (tet.into_iter())
                 .zip(across)
-                .map(|(v, &u)| (v, if u < 0 { [u32::MAX; 4] } else { sorted(mesh.tetrahedra[u as usize]) }))
+                .map(|(v, &u)| (v, if u == NONE { [u32::MAX; 4] } else { sorted(mesh.tetrahedra[u as usize]) }))
                 .collect();
             near.sort_unstable();
             [sorted(tet)].into_iter().chain(near.into_iter().map(|(_, tet)| tet)).collect()
@@ -182,11 +182,11 @@ fn the_callers_arrays_are_those_of_the_reference_and_of_the_cpu() {
             assert!(essence(&device) == essence(&of_cpu), "{name}, {unused} unused");
             assert!(canonical(&device.tetrahedra) == mesh.canonical(), "{name}, {unused} unused");
 
-            let mut lowest = vec![-1; points.len()];
+            let mut lowest = vec![NONE; points.len()];
             for (t, tet) in device.tetrahedra.iter().enumerate().rev() {
-                tet.iter().for_each(|&v| lowest[v as usize] = t as i32);
+                tet.iter().for_each(|&v| lowest[v as usize] = t as u32);
             }
-            let vertex_simplices: Vec<i32> = bytemuck::cast_vec(read(&gpu, &arrays.vertex_simplices));
+            let vertex_simplices: Vec<u32> = bytemuck::cast_vec(read(&gpu, &arrays.vertex_simplices));
             assert!(vertex_simplices == lowest, "{name}, {unused} unused");
         }
     }

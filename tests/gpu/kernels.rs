@@ -3,12 +3,13 @@
 use crate::states::{self, Own};
 use bytemuck::Pod;
 use gdel::{
+    NONE,
     internals::{
         dimension::Dimension,
         gpu::{
             AdapterChoice, Binding, Compiler, Gpu, Kernel, Recorder, Storage,
             dim::Dim,
-            layout::{NONE, Params},
+            layout::Params,
             phase1::{Buffers, Sizes},
             points::{DevicePoints, InputCounts},
             shader::Shader,

@@ -73,7 +73,7 @@ where
     fn read(mesh: &DeviceMesh<D>) -> MeshOf<D>;
 
     /// Returns the simplices, each with sorted vertices, in ascending order; and what belongs to the points.
-    fn canonical(mesh: &MeshOf<D>) -> (Vec<Vec<u32>>, Vec<i32>, u8);
+    fn canonical(mesh: &MeshOf<D>) -> (Vec<Vec<u32>>, Vec<u32>, u8);
 }
 
 fn sorted<const N: usize>(simplices: &[[u32; N]]) -> Vec<Vec<u32>> {
@@ -88,7 +88,7 @@ impl Read<3> for Dimension<3> {
         mesh.read(Outputs::ALL).expect("the device works")
     }
 
-    fn canonical(mesh: &MeshOf<3>) -> (Vec<Vec<u32>>, Vec<i32>, u8) {
+    fn canonical(mesh: &MeshOf<3>) -> (Vec<Vec<u32>>, Vec<u32>, u8) {
         (sorted(&mesh.tetrahedra), mesh.duplicate_of.clone(), mesh.dimension)
     }
 }
@@ -98,7 +98,7 @@ impl Read<2> for Dimension<2> {
         mesh.read(Outputs::ALL).expect("the device works")
     }
 
-    fn canonical(mesh: &MeshOf<2>) -> (Vec<Vec<u32>>, Vec<i32>, u8) {
+    fn canonical(mesh: &MeshOf<2>) -> (Vec<Vec<u32>>, Vec<u32>, u8) {
         (sorted(&mesh.triangles), mesh.duplicate_of.clone(), mesh.dimension)
     }
 }

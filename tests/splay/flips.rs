@@ -1,8 +1,8 @@
 //! A triangulation that can be spoilt: splits and flips of tetrahedra found by their facets.
 
+use gdel::NONE;
 use gdel::internals::{
     d3::{mesh::FACETS, splay::NearDelaunay3, triangulation::Triangulation3},
-    index::NO_INDEX,
     predicates::filter::PredicateContext3,
 };
 use std::collections::HashMap;
@@ -139,7 +139,7 @@ impl<'a> Soup<'a> {
 /// tetrahedra are uncertain, and nothing is known to have failed.
 pub fn near(infinite: u32, tetrahedra: &[[u32; 4]]) -> NearDelaunay3 {
     let mut all = tetrahedra.to_vec();
-    let mut neighbors = vec![[NO_INDEX; 4]; all.len()];
+    let mut neighbors = vec![[NONE; 4]; all.len()];
     let mut open = HashMap::new();
     let match_facets = |all: &[[u32; 4]], neighbors: &mut [[u32; 4]], open: &mut HashMap<_, u32>, from: usize| {
         for slot in from..all.len() {
@@ -163,15 +163,15 @@ pub fn near(infinite: u32, tetrahedra: &[[u32; 4]]) -> NearDelaunay3 {
     for f in hull {
         let [a, b, c] = FACETS[f as usize % 4].map(|i| tetrahedra[f as usize / 4][i]);
         all.push([a, b, c, infinite]);
-        neighbors.push([NO_INDEX; 4]);
+        neighbors.push([NONE; 4]);
     }
     match_facets(&all, &mut neighbors, &mut open, tetrahedra.len());
     assert!(open.is_empty(), "the boundary is not closed");
-    let mut incident = vec![NO_INDEX; infinite as usize + 1];
+    let mut incident = vec![NONE; infinite as usize + 1];
     for (slot, t) in all.iter().enumerate() {
         t.iter().for_each(|&v| incident[v as usize] = slot as u32);
     }
-    let missing = (0..infinite).filter(|&v| incident[v as usize] == NO_INDEX).collect();
+    let missing = (0..infinite).filter(|&v| incident[v as usize] == NONE).collect();
     let uncertain = (0..all.len() as u32).collect();
     NearDelaunay3 {
         triangulation: Triangulation3::new(all, neighbors, infinite),

@@ -10,14 +10,13 @@ mod regions;
 
 use flips::{Soup, found_out, near};
 use gdel::{
-    MeshView3, Points,
+    MeshView3, NONE, Points,
     internals::{
         Options, cpu,
         d3::{
             splay::{Aborted, KeptRegion, NearDelaunay3, SplayOutcome, Terms, splay, splay_again},
             triangulation::{FiniteMesh, Triangulation3},
         },
-        index::NO_INDEX,
         input::lattice::Lattice,
         parallel::Threads,
         predicates::filter::{PredicateContext, PredicateContext3},
@@ -348,7 +347,7 @@ fn what_is_not_a_triangulation_aborts() {
     let lattice = Lattice::fit((&points).into());
     let vertices = PredicateContext::new((&points).into(), &lattice, shuffled(points.len(), 21));
     let near = spoilt(&points);
-    let no_tetrahedra = NearDelaunay3 { incident: vec![NO_INDEX; points.len() + 1], ..near.clone() };
+    let no_tetrahedra = NearDelaunay3 { incident: vec![NONE; points.len() + 1], ..near.clone() };
     let wrong_tetrahedra = NearDelaunay3 { incident: near.incident.iter().rev().copied().collect(), ..near };
     for near in [no_tetrahedra, wrong_tetrahedra] {
         let outcome = splay(&vertices, near, Terms::unlimited(Threads::All)).unwrap();

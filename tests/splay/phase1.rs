@@ -3,9 +3,9 @@
 
 use crate::{check, exact, flips::flat_or_inverted, inputs, inputs::Cloud};
 use gdel::{
+    NONE,
     internals::{
         d3::{splay::NearDelaunay3, triangulation::Triangulation3},
-        index::NO_INDEX,
         input::lattice::{Lattice, Width},
         predicates::filter::{PredicateContext, PredicateContext3},
     },
@@ -21,7 +21,7 @@ use gdel_reference::{
 /// tetrahedra are uncertain.
 fn near(state: &reference::State<3>, vertices: &PredicateContext3<'_>) -> NearDelaunay3 {
     let used: Vec<usize> = (0..state.simplices.len()).filter(|&t| state.is_used(t)).collect();
-    let mut number = vec![NO_INDEX; state.simplices.len()];
+    let mut number = vec![NONE; state.simplices.len()];
     used.iter().zip(0..).for_each(|(&t, n)| number[t] = n);
     let infinite = vertices.len() as u32;
     // The order of the vertices that puts infinity last: two exchanges keep the orientation.
@@ -38,7 +38,7 @@ fn near(state: &reference::State<3>, vertices: &PredicateContext3<'_>) -> NearDe
         4 * number[u] + order(u)[face] as u32
     };
     let neighbors = used.iter().map(|&t| order(t).map(|k| renumbered(state.neighbors[t][k]))).collect();
-    let mut incident = vec![NO_INDEX; vertices.len() + 1];
+    let mut incident = vec![NONE; vertices.len() + 1];
     // A ghost where there is one.
     for ghosts in [false, true] {
         let some = (0..).zip(&tetrahedra).filter(|(_, t)| (t[3] == infinite) == ghosts);

@@ -3,12 +3,12 @@
 
 use crate::{inputs, verified};
 use gdel::{
+    NONE,
     internals::{
         d3::{
             splay::{Doubts, NearDelaunay3, Patch, Region, Splay, Stop, Terms},
             triangulation::Triangulation3,
         },
-        index::NO_INDEX,
         parallel::Threads,
         predicates::filter::PredicateContext3,
     },
@@ -36,7 +36,7 @@ pub fn elsewhere(near: NearDelaunay3, kept: Option<Region>) -> Elsewhere {
     region.add(wanted, gathered, Threads::All).unwrap();
     let uncertain = uncertain.iter().map(|&t| mesh.region_numbers[t as usize]).collect();
     // A vertex that is not missing: as if each were at the place of the one before it.
-    let there = (0..infinite).find(|&v| incident[v as usize] != NO_INDEX).unwrap();
+    let there = (0..infinite).find(|&v| incident[v as usize] != NONE).unwrap();
     let missing = missing.into_iter().map(|v| [v, there]).collect();
     Elsewhere { mesh, region, doubts: Doubts { failed, uncertain, missing } }
 }

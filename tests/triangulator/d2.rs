@@ -2,7 +2,7 @@
 
 use crate::degenerate;
 use gdel::{
-    Backend, DeviceMesh2, Mesh2, Outputs, Points2,
+    Backend, DeviceMesh2, Mesh2, NONE, Outputs, Points2,
     internals::{
         Options,
         cpu::delaunay_in_order,
@@ -48,9 +48,9 @@ pub fn same(points: Points2<'_>, mesh: &Mesh2) {
     assert_eq!(mesh.hull, expected.hull);
     let (halfedges, from) = (mesh.halfedges.as_flattened(), mesh.triangles.as_flattened());
     let to = |e: usize| from[e / 3 * 3 + (e + 1) % 3];
-    assert_eq!(halfedges.iter().filter(|&&e| e == -1).count(), if mesh.dimension == 2 { mesh.hull.len() } else { 0 });
-    for (e, &against) in halfedges.iter().enumerate().filter(|&(_, &against)| against != -1) {
-        assert_eq!(halfedges[against as usize], e as i32);
+    assert_eq!(halfedges.iter().filter(|&&e| e == NONE).count(), if mesh.dimension == 2 { mesh.hull.len() } else { 0 });
+    for (e, &against) in halfedges.iter().enumerate().filter(|&(_, &against)| against != NONE) {
+        assert_eq!(halfedges[against as usize], e as u32);
         assert_eq!([from[e], to(e)], [to(against as usize), from[against as usize]]);
     }
 }

@@ -69,7 +69,7 @@ macro_rules! tests {
                     }
                     // What the device made is as unaware of the unused points as of duplicates.
                     let simplex = mesh.read_vertex_simplex().expect("reads");
-                    assert!([0, 1, 2, 5, 99].iter().all(|&i: &usize| simplex[i] == -1));
+                    assert!([0, 1, 2, 5, 99].iter().all(|&i: &usize| simplex[i] == gdel::NONE));
 
                     // The points move.
                     for share in [0.0, 1e-3, 10.0] {

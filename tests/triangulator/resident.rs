@@ -151,7 +151,7 @@ fn what_the_cpu_has_made_is_on_the_device_too() {
     assert_eq!(mesh.stats().fallback, Some(Fallback::Coplanar));
     assert_eq!((mesh.dimension(), mesh.simplex_count(), mesh.hull_count(), mesh.point_count()), (2, 0, 0, 4));
     same(&flat, &mesh.read(Outputs::ALL).expect("reads"));
-    assert_eq!(mesh.read_vertex_simplex().expect("reads"), [-1; 4]);
+    assert_eq!(mesh.read_vertex_simplex().expect("reads"), [gdel::NONE; 4]);
 
     let line = [[2.0, 0.0], [0.0, 0.0], [1.0, 0.0f64]];
     let mesh = triangulator.device().expect("opens").delaunay2d(&line).expect("triangulates");

@@ -97,7 +97,7 @@ pub trait Space<const D: usize> {
     fn triangulate_resident(triangulator: &Triangulator, points: Points<'_, D>) -> Result<DeviceMesh<D>, Error>;
 
     /// Returns the number of simplices, which points are duplicates, and what the run says about itself.
-    fn summary(mesh: &Self::Mesh) -> (usize, &[i32], &Stats);
+    fn summary(mesh: &Self::Mesh) -> (usize, &[u32], &Stats);
 }
 
 impl Space<2> for Dimension<2> {
@@ -116,7 +116,7 @@ impl Space<2> for Dimension<2> {
         triangulator.device()?.delaunay2d(points)
     }
 
-    fn summary(mesh: &Mesh2) -> (usize, &[i32], &Stats) {
+    fn summary(mesh: &Mesh2) -> (usize, &[u32], &Stats) {
         (mesh.triangles.len(), &mesh.duplicate_of, &mesh.stats)
     }
 }
@@ -137,7 +137,7 @@ impl Space<3> for Dimension<3> {
         triangulator.device()?.delaunay3d(points)
     }
 
-    fn summary(mesh: &Mesh3) -> (usize, &[i32], &Stats) {
+    fn summary(mesh: &Mesh3) -> (usize, &[u32], &Stats) {
         (mesh.tetrahedra.len(), &mesh.duplicate_of, &mesh.stats)
     }
 }

@@ -110,7 +110,7 @@ where
     let points = cloud.points();
     let mut kept = <Dimension<D> as Space<D>>::Mesh::default();
     let mut all = Vec::new();
-    let vertices = |duplicate_of: &[i32]| duplicate_of.iter().filter(|&&first| first < 0).count();
+    let vertices = |duplicate_of: &[u32]| duplicate_of.iter().filter(|&&first| first == gdel::NONE).count();
     let (times, (simplices, vertices)) = repeated(arguments.runs, arguments.warm_up, || {
         if destination == Destination::Resident {
             let (time, mesh) = try_timed(|| Dimension::<D>::triangulate_resident(triangulator, points))?;

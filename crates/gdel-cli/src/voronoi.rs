@@ -7,7 +7,7 @@ use super::{
 };
 use clap::{Args, ValueEnum};
 use gdel::{
-    Clip, Csr, Mesh2, Mesh3, Points, Voronoi,
+    Clip, Csr, Mesh2, Mesh3, NONE, Points, Voronoi,
     internals::{derived::VoronoiShapes, geometry::Euclidean},
 };
 use gdel_io::{CellShape, Column, Grid, Table, files::ResultOutput};
@@ -122,7 +122,7 @@ where
     Euclidean: VoronoiShapes<D, N>,
 {
     let diagram = voronoi.diagram();
-    let neighbors = diagram.neighbors.iter().map(|&v| v.into()).collect();
+    let neighbors = diagram.neighbors.iter().map(|&v| if v == NONE { -1 } else { v.into() }).collect();
     let table = Table::default()
         .with_points("vertex_", &diagram.vertices)
         .with("facets", Column::Lists(diagram.facets))

@@ -26,7 +26,7 @@ pub trait Mesh<const D: usize, const N: usize>: gdel::Mesh<D, N> {
 
     /// Returns the rows of the second array in NumPy's files: neighbours, or half-edges.
     #[doc(hidden)]
-    fn adjacency(&self) -> &[[i32; N]];
+    fn adjacency(&self) -> &[[u32; N]];
 
     /// Returns the triangles of the hull, or all triangles of a 2D mesh, in the orientation of
     /// files.
@@ -35,7 +35,7 @@ pub trait Mesh<const D: usize, const N: usize>: gdel::Mesh<D, N> {
 
     /// Creates the data of a file from NumPy's arrays.
     #[doc(hidden)]
-    fn from_arrays(simplices: Vec<[u32; N]>, adjacency: Option<Vec<[i32; N]>>) -> MeshData<D, N>;
+    fn from_arrays(simplices: Vec<[u32; N]>, adjacency: Option<Vec<[u32; N]>>) -> MeshData<D, N>;
 }
 
 impl Mesh<3, 4> for Mesh3 {
@@ -47,7 +47,7 @@ impl Mesh<3, 4> for Mesh3 {
         vtk: 10,
     };
 
-    fn adjacency(&self) -> &[[i32; 4]] {
+    fn adjacency(&self) -> &[[u32; 4]] {
         &self.neighbors
     }
 
@@ -55,7 +55,7 @@ impl Mesh<3, 4> for Mesh3 {
         Cow::Borrowed(&self.hull)
     }
 
-    fn from_arrays(simplices: Vec<[u32; 4]>, neighbors: Option<Vec<[i32; 4]>>) -> MeshData3 {
+    fn from_arrays(simplices: Vec<[u32; 4]>, neighbors: Option<Vec<[u32; 4]>>) -> MeshData3 {
         MeshData { simplices, neighbors, halfedges: None, points: None }
     }
 }
@@ -64,7 +64,7 @@ impl Mesh<2, 3> for Mesh2 {
     const NAMES: Names =
         Names { simplex: "triangle", simplices: "triangles", adjacency: "halfedges", surface: "triangulation", vtk: 5 };
 
-    fn adjacency(&self) -> &[[i32; 3]] {
+    fn adjacency(&self) -> &[[u32; 3]] {
         &self.halfedges
     }
 
@@ -72,7 +72,7 @@ impl Mesh<2, 3> for Mesh2 {
         Cow::Borrowed(&self.triangles)
     }
 
-    fn from_arrays(simplices: Vec<[u32; 3]>, halfedges: Option<Vec<[i32; 3]>>) -> MeshData2 {
+    fn from_arrays(simplices: Vec<[u32; 3]>, halfedges: Option<Vec<[u32; 3]>>) -> MeshData2 {
         MeshData { simplices, neighbors: None, halfedges, points: None }
     }
 }
@@ -84,11 +84,11 @@ pub struct MeshData<const D: usize, const N: usize> {
     /// The indices of the vertices of each tetrahedron, or of each triangle in the orientation of
     /// [`Mesh2`].
     pub simplices: Vec<[u32; N]>,
-    /// Entry *k* is the tetrahedron, or triangle, opposite vertex *k*, -1 outside; `None` when the
+    /// Entry *k* is the tetrahedron, or triangle, opposite vertex *k*, [`NONE`](gdel::NONE) outside; `None` when the
     /// file does not say.
-    pub neighbors: Option<Vec<[i32; N]>>,
+    pub neighbors: Option<Vec<[u32; N]>>,
     /// The half-edges of a 2D mesh as in [`Mesh2`]; `None` when the file does not say.
-    pub halfedges: Option<Vec<[i32; N]>>,
+    pub halfedges: Option<Vec<[u32; N]>>,
     /// The points that the vertices are indices of; `None` when the file does not have them.
     pub points: Option<PointBuf<D>>,
 }

@@ -29,8 +29,9 @@ pub fn read_npz<M: Mesh<D, N>, const D: usize, const N: usize>(bytes: &[u8]) -> 
         return Err(FormatError::byte(0, format!("the archive has no array `{simplices}`")));
     };
     let simplices = rows.into_iter().map(|row| row.map(|v| v as u32)).collect();
-    let adjacency = read_indices(&mut archive, adjacency, NONE.into()..=i32::MAX.into())?;
-    let adjacency = adjacency.map(|rows| rows.into_iter().map(|row| row.map(|n| n as i32)).collect());
+    let adjacency = read_indices(&mut archive, adjacency, -1..=i32::MAX.into())?;
+    let adjacency =
+        adjacency.map(|rows| rows.into_iter().map(|row| row.map(|n| if n == -1 { NONE } else { n as u32 })).collect());
     let points = read_array(&mut archive, "points", |array| array.points())?.map(|cloud| cloud.points);
     Ok(MeshData { points, ..M::from_arrays(simplices, adjacency) })
 }
@@ -81,7 +82,7 @@ pub fn write_npz<const D: usize, const N: usize, M: Mesh<D, N>>(
     archive::write(to, |archive| {
         array(archive, "points", |to| npy::write(to, points))?;
         array(archive, M::NAMES.simplices, |to| npy::write_array(to, "<u4", mesh.simplices(), u32::to_le_bytes))?;
-        array(archive, M::NAMES.adjacency, |to| npy::write_array(to, "<i4", mesh.adjacency(), i32::to_le_bytes))
+        array(archive, M::NAMES.adjacency, |to| npy::write_array(to, "<i4", mesh.adjacency(), u32::to_le_bytes))
     })
 }
 

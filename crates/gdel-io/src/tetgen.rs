@@ -50,7 +50,8 @@ pub fn write_ele<const D: usize, const N: usize, M: Mesh<D, N>>(mut to: impl Wri
 pub fn write_neigh<const D: usize, const N: usize, M: Mesh<D, N>>(mut to: impl Write, mesh: &M) -> io::Result<()> {
     let opposites = mesh.opposites();
     writeln!(to, "{} {N}", opposites.len())?;
-    write_rows(to, opposites.iter().copied())
+    // Outside is −1.
+    write_rows(to, opposites.iter().map(|row| row.map(|t| t as i32)))
 }
 
 /// Writes the rows, numbered from 0, and a comment where TetGen and Triangle have theirs.
@@ -94,17 +95,17 @@ pub fn read_ele<M: Mesh<D, N>, const D: usize, const N: usize>(bytes: &[u8]) -> 
     rows.into_iter().map(|row: Row<i64, N>| row.resolve(index)).collect()
 }
 
-/// Reads the neighbours, counted as in [`read_ele`]; -1 is outside.
+/// Reads the neighbours, counted as in [`read_ele`]; −1 in the file is [`NONE`].
 ///
 /// # Errors
 ///
 /// Returns where the file is broken, and how.
-pub fn read_neigh<M: Mesh<D, N>, const D: usize, const N: usize>(bytes: &[u8]) -> Result<Vec<[i32; N]>, FormatError> {
+pub fn read_neigh<M: Mesh<D, N>, const D: usize, const N: usize>(bytes: &[u8]) -> Result<Vec<[u32; N]>, FormatError> {
     let Rows { rows, base } = read_rows(bytes, M::NAMES.simplices, integer)?;
     // "None" is -1 in files that count from 1 as well.
     let index = |t: i64| match t {
         -1 => Some(NONE),
-        _ => i32::try_from(t.checked_sub(base)?).ok().filter(|&t| t >= 0),
+        _ => u32::try_from(t.checked_sub(base)?).ok().filter(|&t| t <= i32::MAX as u32),
     };
     rows.into_iter().map(|row: Row<i64, N>| row.resolve(index)).collect()
 }

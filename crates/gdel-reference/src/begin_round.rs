@@ -1,7 +1,10 @@
 //! The beginning of an insertion round.
 
 use gdel::internals::dimension::Dimension;
-use gdel::internals::gpu::layout::{GROWTH_FROM, GROWTH_SHARE, LOGGED, NONE, Params, Pick, TWICE_GROWTH};
+use gdel::{
+    NONE,
+    internals::gpu::layout::{GROWTH_FROM, GROWTH_SHARE, LOGGED, Params, Pick, TWICE_GROWTH},
+};
 
 use crate::State;
 use crate::dim::ReferenceDim;

@@ -2,7 +2,10 @@
 
 use gdel::internals::dimension::Dimension;
 use gdel::internals::gpu::dim::Flip;
-use gdel::internals::gpu::layout::{HELD_SHIFT, HISTORY_FULL, NONE, Status};
+use gdel::{
+    NONE,
+    internals::gpu::layout::{HELD_SHIFT, HISTORY_FULL, Status},
+};
 
 use crate::State;
 use crate::dim::ReferenceDim;

@@ -1,7 +1,10 @@
 //! The simplices of the start, and which of them each point lies in.
 
 use gdel::internals::dimension::Dimension;
-use gdel::internals::gpu::layout::{Active, CHECK, NONE, Status, Waiting};
+use gdel::{
+    NONE,
+    internals::gpu::layout::{Active, CHECK, Status, Waiting},
+};
 
 use crate::State;
 use crate::dim::{OwnState, ReferenceDim};

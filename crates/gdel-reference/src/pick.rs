@@ -1,7 +1,10 @@
 //! Which point each simplex inserts (§3.1).
 
 use gdel::internals::dimension::Dimension;
-use gdel::internals::gpu::layout::{NONE, Pick, Waiting};
+use gdel::{
+    NONE,
+    internals::gpu::layout::{Pick, Waiting},
+};
 
 use crate::State;
 use crate::dim::ReferenceDim;

@@ -1,7 +1,7 @@
 //! Waiting points follow the history of the round's flips (§4.1).
 
 use gdel::internals::dimension::Dimension;
-use gdel::internals::gpu::layout::{NONE, Waiting};
+use gdel::{NONE, internals::gpu::layout::Waiting};
 
 use crate::State;
 use crate::dim::ReferenceDim;

@@ -2,10 +2,13 @@
 
 use gdel::internals::dimension::Dimension;
 use gdel::internals::gpu::dim::Dim;
-use gdel::internals::gpu::layout::{NONE, Pick, SLOTS_FULL};
 use gdel::internals::gpu::start::{StartMesh, first_simplex};
 use gdel::internals::input::lattice::{Lattice, Width};
 use gdel::internals::input::points::Points;
+use gdel::{
+    NONE,
+    internals::gpu::layout::{Pick, SLOTS_FULL},
+};
 
 use crate::dim::ReferenceDim;
 use crate::kernels::Kernels;

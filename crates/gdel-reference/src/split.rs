@@ -2,7 +2,10 @@
 
 use gdel::internals::dimension::Dimension;
 use gdel::internals::gpu::dim::Dim;
-use gdel::internals::gpu::layout::{CHECK, HELD_SHIFT, NONE, Status, Waiting};
+use gdel::{
+    NONE,
+    internals::gpu::layout::{CHECK, HELD_SHIFT, Status, Waiting},
+};
 
 use crate::State;
 use crate::dim::{OwnState, ReferenceDim};

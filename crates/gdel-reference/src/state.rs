@@ -4,10 +4,13 @@ use bytemuck::Zeroable;
 
 use gdel::internals::dimension::Dimension;
 use gdel::internals::gpu::dim::{Corners, Dim, Flip};
-use gdel::internals::gpu::layout::{Active, BLOCK, Counters, HELD_SHIFT, NONE, Params, Status, Waiting};
 use gdel::internals::gpu::start::StartMesh;
 use gdel::internals::input::lattice::Width;
 use gdel::internals::predicates::Sign;
+use gdel::{
+    NONE,
+    internals::gpu::layout::{Active, BLOCK, Counters, HELD_SHIFT, Params, Status, Waiting},
+};
 
 use crate::Vertex;
 use crate::dim::{OwnState, ReferenceDim};

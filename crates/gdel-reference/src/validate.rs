@@ -3,7 +3,10 @@
 use std::collections::HashSet;
 
 use gdel::internals::dimension::Dimension;
-use gdel::internals::gpu::layout::{CHECK, NONE, Waiting};
+use gdel::{
+    NONE,
+    internals::gpu::layout::{CHECK, Waiting},
+};
 
 use crate::State;
 use crate::dim::ReferenceDim;

@@ -28,7 +28,7 @@ pub trait Edit<const D: usize, const N: usize>: Incremental<D, Triangulation: Sl
     fn count(mesh: &Self::Mesh) -> usize;
 
     /// Returns the vertices of simplex `t` of a mesh of this orientation, positively oriented, and
-    /// its neighbours as [`Slots`] number them, [`NO_INDEX`](crate::index::NO_INDEX) outside the hull; `None` if it is not
+    /// its neighbours as [`Slots`] number them, [`NONE`](crate::index::NONE) outside the hull; `None` if it is not
     /// there, or its neighbours are not.
     fn row(mesh: &Self::Mesh, winding: Winding, t: u32) -> Option<Row<N>>;
 

@@ -38,7 +38,7 @@ where
     /// The number of vertices that may still be around those that are removed.
     pub(super) max_around: f64,
     /// The field of the mesh.
-    pub(super) duplicate_of: Vec<i32>,
+    pub(super) duplicate_of: Vec<u32>,
     /// Receives what was done.
     pub(super) update: UpdateStats,
 }
@@ -75,8 +75,8 @@ where
                 if v >= p {
                     return Ok(Err(Restart::Broken));
                 }
-                self.duplicate_of[p as usize] = v as i32;
-                aliases.insert(p as i32, v as i32);
+                self.duplicate_of[p as usize] = v;
+                aliases.insert(p, v);
                 continue;
             }
             match self.sparse.insert(self.context, p, at, &mut scratch)? {

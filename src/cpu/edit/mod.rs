@@ -164,7 +164,7 @@ impl<const D: usize> Request<'_, D> {
         lattice: &Lattice<D>,
         removed: &[u32],
         heirs: Vec<u32>,
-        duplicate_of: &mut [i32],
+        duplicate_of: &mut [u32],
     ) -> Result<[Vec<u32>; 2], Restart>
     where
         Dimension<D>: Edit<D, N>,

@@ -8,7 +8,7 @@ pub struct Patch<const N: usize, Hull> {
     /// The number of simplices afterwards.
     pub(crate) count: usize,
     /// The new rows of the simplices that change, by their numbers. Outside the hull the neighbour
-    /// is [`NO_INDEX`](crate::index::NO_INDEX).
+    /// is [`NONE`](crate::index::NONE).
     pub(crate) rows: Vec<(u32, Row<N>)>,
     /// The new hull, if it changes.
     pub(crate) hull: Option<Hull>,

@@ -22,24 +22,24 @@ pub(super) struct Plan {
     /// The duplicates that take the place of one of these, to be inserted.
     pub(super) heirs: Vec<u32>,
     /// The field `duplicate_of` afterwards, without what the new points duplicate.
-    pub(super) duplicate_of: Vec<i32>,
+    pub(super) duplicate_of: Vec<u32>,
 }
 
 impl Plan {
     /// Plans to remove points, and to add some until there are so many. If the field `before` is
     /// not one of a mesh, returns as an error which points are unused.
-    pub(super) fn new(before: &[i32], points: usize, removed: &[u32]) -> Result<Self, Vec<i32>> {
+    pub(super) fn new(before: &[u32], points: usize, removed: &[u32]) -> Result<Self, Vec<u32>> {
         let mut duplicate_of = Vec::with_capacity(points);
         duplicate_of.extend_from_slice(before);
         duplicate_of.resize(points, NONE);
         for &i in removed {
-            duplicate_of[i as usize] = i as i32;
+            duplicate_of[i as usize] = i;
         }
         let mut plan = Plan::default();
         let mut heir_of = FxHashMap::default();
         for &i in removed.iter().filter(|&&i| before[i as usize] == NONE) {
             plan.removed.push(i);
-            heir_of.insert(i as i32, NONE);
+            heir_of.insert(i, NONE);
         }
         let mut is_valid = true;
         for (i, &first) in (0..).zip(before) {
@@ -53,7 +53,7 @@ impl Plan {
             {
                 if *heir == NONE {
                     *heir = i;
-                    plan.heirs.push(i as u32);
+                    plan.heirs.push(i);
                     duplicate_of[i as usize] = NONE;
                 } else {
                     duplicate_of[i as usize] = *heir;
@@ -62,7 +62,7 @@ impl Plan {
         }
         if !is_valid {
             // What is unused is still known.
-            let unused = |(i, first): (i32, &mut i32)| *first = if *first == i { i } else { NONE };
+            let unused = |(i, first): (u32, &mut u32)| *first = if *first == i { i } else { NONE };
             (0..).zip(&mut duplicate_of).for_each(unused);
             return Err(duplicate_of);
         }
@@ -77,12 +77,12 @@ impl Plan {
 /// # Errors
 ///
 /// Returns [`Error::BadIndex`].
-pub(super) fn check_indices(duplicate_of: &[i32], removed: &[u32]) -> Result<(), Error> {
+pub(super) fn check_indices(duplicate_of: &[u32], removed: &[u32]) -> Result<(), Error> {
     let mut seen = FxHashSet::default();
     for &index in removed {
         let reason = match duplicate_of.get(index as usize) {
             None => "there is no such point",
-            Some(&first) if first == index as i32 => "it was removed before",
+            Some(&first) if first == index => "it was removed before",
             Some(_) if !seen.insert(index) => "it is given twice",
             Some(_) => continue,
         };
@@ -114,7 +114,7 @@ pub(super) fn order_of_new<const D: usize>(
     points: Points<'_, D>,
     lattice: &Lattice<D>,
     known: usize,
-    duplicate_of: &mut [i32],
+    duplicate_of: &mut [u32],
 ) -> Vec<u32>
 where
     Dimension<D>: Incremental<D>,
@@ -123,7 +123,7 @@ where
     let Distinct { order, duplicate_of: of_new, .. } =
         insertion_order(threads, new, lattice, Dimension::<D>::CURVE, Order::Brio);
     for (first, of_new) in duplicate_of[known..].iter_mut().zip(of_new) {
-        *first = if of_new == NONE { NONE } else { of_new + known as i32 };
+        *first = if of_new == NONE { NONE } else { of_new + known as u32 };
     }
     order.into_iter().map(|i| i + known as u32).collect()
 }

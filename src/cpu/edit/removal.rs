@@ -13,7 +13,7 @@ use crate::{
     },
     dimension::Dimension,
     error::Error,
-    index::NO_INDEX,
+    index::NONE,
     input::{lattice::Lattice, points::Points},
     predicates::filter::PredicateContext,
     slots::Slots,
@@ -69,9 +69,9 @@ impl<const N: usize> Star<N> {
 }
 
 /// Returns what is the same for both simplices of the facet opposite corner `k`: its vertices,
-/// sorted, and [`NO_INDEX`].
+/// sorted, and [`NONE`].
 pub(super) fn facet_of<const N: usize>(mut simplex: [u32; N], k: usize) -> [u32; N] {
-    simplex[k] = NO_INDEX;
+    simplex[k] = NONE;
     simplex.sort_unstable();
     simplex
 }

@@ -11,7 +11,7 @@ use crate::{
     },
     dimension::Dimension,
     error::Error,
-    index::NO_INDEX,
+    index::NONE,
     options::Winding,
     predicates::filter::PredicateContext,
     slots::{MarkedSlots, Places, Slots},
@@ -32,9 +32,9 @@ const FUEL: usize = 64;
 /// A slot that has been looked at.
 #[derive(Clone, Copy)]
 struct Slot<const N: usize> {
-    /// The vertices; [`NO_INDEX`] in a slot that is not used.
+    /// The vertices; [`NONE`] in a slot that is not used.
     simplex: [u32; N],
-    /// The neighbours. Those of ghosts are [`NO_INDEX`] until they are asked for, except for the
+    /// The neighbours. Those of ghosts are [`NONE`] until they are asked for, except for the
     /// simplex inside.
     neighbors: [u32; N],
     /// Whether the mesh has other vertices or neighbours here.
@@ -52,7 +52,7 @@ impl<const N: usize> Slot<N> {
     }
 
     fn is_used(&self) -> bool {
-        self.simplex[0] != NO_INDEX
+        self.simplex[0] != NONE
     }
 
     /// Returns whether this is a simplex of the mesh.
@@ -160,9 +160,9 @@ where
             return;
         };
         for (k, across) in neighbors.iter_mut().enumerate() {
-            if *across == NO_INDEX {
+            if *across == NONE {
                 let ghost = Dimension::<D>::ghost(simplex, k, self.infinite);
-                let mut inside = [NO_INDEX; N];
+                let mut inside = [NONE; N];
                 inside[N - 1] = 4 * t + k as u32;
                 *across = 4 * (self.count + state.more.len() as u32) + (N - 1) as u32;
                 state.more.push(Slot { simplex: ghost, neighbors: inside, has_changed: false });
@@ -179,7 +179,7 @@ where
         if !is_simplex || !Dimension::<D>::is_positive(self.vertices, simplex) {
             return None;
         }
-        for (k, across) in neighbors.into_iter().enumerate().filter(|&(_, across)| across != NO_INDEX) {
+        for (k, across) in neighbors.into_iter().enumerate().filter(|&(_, across)| across != NONE) {
             let other = Dimension::<D>::beyond(self.mesh, self.winding, 4 * t + k as u32, across)?;
             // The same facet, seen from the other side.
             let is_shared = (0..N).all(|i| i == k || other.contains(&simplex[i]));
@@ -209,7 +209,7 @@ where
         for _ in 0..=max {
             let Some(&lacks) = self.corners(at).get(entered) else { break };
             let across = self.with(at, |slot| slot.neighbors[leave]);
-            if across == NO_INDEX {
+            if across == NONE {
                 break;
             }
             (at, entered) = (across >> 2, (across & 3) as usize);
@@ -254,7 +254,7 @@ where
         let slot = |t: u32| if t < count { state.slots.get(&t) } else { state.more.get((t - count) as usize) };
         let place = |t: u32| places.get(&t).copied().unwrap_or(t);
         let across = |facet: u32| match slot(facet >> 2) {
-            Some(slot) if !finite(slot) => NO_INDEX,
+            Some(slot) if !finite(slot) => NONE,
             _ => 4 * place(facet >> 2) + (facet & 3),
         };
         let all = state.slots.iter().map(|(&t, slot)| (t, slot)).chain((count..).zip(&state.more));
@@ -316,7 +316,7 @@ where
 
     fn neighbors(&self, t: u32) -> [u32; N] {
         let mut neighbors = self.with(t, |slot| slot.neighbors);
-        for (s, neighbor) in neighbors.iter_mut().enumerate().filter(|(_, neighbor)| **neighbor == NO_INDEX) {
+        for (s, neighbor) in neighbors.iter_mut().enumerate().filter(|(_, neighbor)| **neighbor == NONE) {
             *neighbor = self.around(t, s);
             self.with(t, |slot| slot.neighbors[s] = *neighbor);
         }
@@ -345,7 +345,7 @@ where
         if slots >= limit {
             return Err(Error::TooManySimplices { limit });
         }
-        state.more.push(Slot { simplex: [NO_INDEX; N], ..Slot::NONE });
+        state.more.push(Slot { simplex: [NONE; N], ..Slot::NONE });
         Ok(slots as u32)
     }
 
@@ -378,7 +378,7 @@ where
     }
 
     fn discard(&mut self, t: u32) {
-        self.with(t, |slot| (slot.simplex, slot.has_changed) = ([NO_INDEX; N], true));
+        self.with(t, |slot| (slot.simplex, slot.has_changed) = ([NONE; N], true));
         self.state.get_mut().free.push(t);
     }
 

@@ -19,11 +19,11 @@ pub struct Again {
     /// Why the mesh was not changed.
     pub why: Restart,
     /// For the points that are unused, their own index, as in the field of a mesh.
-    unused: Vec<i32>,
+    unused: Vec<u32>,
 }
 
 impl Again {
-    pub(super) fn new(why: Restart, unused: Vec<i32>) -> Self {
+    pub(super) fn new(why: Restart, unused: Vec<u32>) -> Self {
         Again { why, unused }
     }
 
@@ -47,8 +47,8 @@ pub struct Used<const D: usize> {
 impl<const D: usize> Used<D> {
     /// Returns the used ones of these points, given the field `duplicate_of` of their mesh; `None` if
     /// all are.
-    pub fn of(points: Points<'_, D>, duplicate_of: &[i32]) -> Option<Self> {
-        let is_unused = |i: u32| duplicate_of.get(i as usize) == Some(&(i as i32));
+    pub fn of(points: Points<'_, D>, duplicate_of: &[u32]) -> Option<Self> {
+        let is_unused = |i: u32| duplicate_of.get(i as usize) == Some(&i);
         let all = points.len();
         if !(0..all as u32).any(is_unused) {
             return None;
@@ -69,9 +69,9 @@ impl<const D: usize> Used<D> {
     ///
     /// Returns [`Error::Threads`].
     pub fn restore(&self, mesh: &mut (impl MeshInfo + Send), threads: Option<NonZeroUsize>) -> Result<(), Error> {
-        let mut duplicate_of: Vec<i32> = (0..self.all as i32).collect();
+        let mut duplicate_of: Vec<u32> = (0..self.all as u32).collect();
         for (&name, &first) in self.names.iter().zip(mesh.duplicate_of()) {
-            duplicate_of[name as usize] = if first == NONE { NONE } else { self.names[first as usize] as i32 };
+            duplicate_of[name as usize] = if first == NONE { NONE } else { self.names[first as usize] };
         }
         let threads = if self.all < MIN_SHARED { Some(NonZeroUsize::MIN) } else { threads };
         parallel::with_threads(threads, |threads| {

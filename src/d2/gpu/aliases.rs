@@ -23,7 +23,7 @@ pub struct Aliases {
     /// The vertices of the triangles, as places in the input.
     pub triangles: Storage<[u32; 3]>,
     /// The half-edge that runs against each.
-    pub halfedges: Storage<[i32; 3]>,
+    pub halfedges: Storage<[u32; 3]>,
     /// The half-edges of the hull, from where to where.
     pub hull: Storage<[u32; 2]>,
     /// What the lattice does not prove of the true coordinates, as far as there is room.
@@ -32,7 +32,7 @@ pub struct Aliases {
 
 // The mesh has no more triangles than there are slots.
 const _: () = assert!(size_of::<Slot>() >= size_of::<[u32; 3]>());
-const _: () = assert!(size_of::<Status>() >= size_of::<[i32; 3]>());
+const _: () = assert!(size_of::<Status>() >= size_of::<[u32; 3]>());
 // The hull has no more edges than there are points.
 const _: () = assert!(size_of::<Waiting>() >= size_of::<[u32; 2]>());
 // The active list has two entries per slot: there is room for one test per slot.

@@ -38,7 +38,7 @@ impl Complete<2> for Dimension<2> {
     const ROUNDS_SHARE: f64 = 0.7;
 
     fn take_lists(mesh: &mut Mesh2) -> [Vec<[u32; 3]>; 2] {
-        [std::mem::take(&mut mesh.triangles), bytemuck::cast_vec(std::mem::take(&mut mesh.halfedges))]
+        [std::mem::take(&mut mesh.triangles), std::mem::take(&mut mesh.halfedges)]
     }
 
     fn tracer(_options: &Options) {}

@@ -20,7 +20,7 @@ pub struct Mesh {
     pub triangles: Vec<[u32; 3]>,
     /// Entry *k* is the half-edge that runs against the one from vertex *k* to the next,
     /// 3·(triangle) + (vertex); -1 on the hull.
-    pub halfedges: Vec<[i32; 3]>,
+    pub halfedges: Vec<[u32; 3]>,
     /// The half-edges of the hull, from where to where, in no order.
     pub hull: Vec<[u32; 2]>,
 }

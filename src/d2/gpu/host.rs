@@ -25,7 +25,7 @@ use crate::{
 #[derive(Debug, Default)]
 pub struct Work2 {
     /// Prepared for the run: the field `duplicate_of` without duplicates.
-    duplicate_of: Vec<i32>,
+    duplicate_of: Vec<u32>,
     /// The points that the mesh lacks, each with the vertex at the same place of the lattice.
     missing: Vec<[u32; 2]>,
     /// The tests with the wrong answer, if these are known.
@@ -75,7 +75,7 @@ pub(super) struct Checked {
     pub(super) turns_once: bool,
     /// How many points the mesh lacks.
     pub(super) missing: usize,
-    pub(super) duplicate_of: Vec<i32>,
+    pub(super) duplicate_of: Vec<u32>,
     pub(super) exact: ExactCounts,
 }
 message!(Checked { hull, is_proven, turns_once, missing, duplicate_of, exact });
@@ -112,7 +112,7 @@ impl Request<2> for Check {
 #[derive(Debug)]
 pub(super) struct Flip {
     pub(super) triangles: Vec<[u32; 3]>,
-    pub(super) halfedges: Vec<[i32; 3]>,
+    pub(super) halfedges: Vec<[u32; 3]>,
 }
 message!(Flip { triangles, halfedges });
 
@@ -120,7 +120,7 @@ message!(Flip { triangles, halfedges });
 #[derive(Debug)]
 pub(super) struct Flipped {
     pub(super) triangles: Vec<[u32; 3]>,
-    pub(super) halfedges: Vec<[i32; 3]>,
+    pub(super) halfedges: Vec<[u32; 3]>,
     pub(super) hull: Vec<u32>,
     /// Whether the hull turns once.
     pub(super) turns_once: bool,
@@ -170,7 +170,7 @@ impl Request<2> for Flip {
 
 /// Returns the vertices of the hull, from the lowest index, by its edges.
 fn in_order(edges: &[[u32; 2]], points: usize) -> Vec<u32> {
-    let mut next = vec![u32::MAX; points];
+    let mut next = vec![NONE; points];
     for &[from, to] in edges {
         next[from as usize] = to;
     }

@@ -36,7 +36,7 @@ pub struct EdgeFlip {
     pub edge: [u32; 2],
     /// The triangles that it made.
     pub triangles: [u32; 2],
-    /// The nodes that changed these later, or [`NONE`](crate::gpu::layout::NONE).
+    /// The nodes that changed these later, or [`NONE`](crate::NONE).
     pub next: [u32; 2],
 }
 assert_layout!(EdgeFlip);

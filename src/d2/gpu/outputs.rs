@@ -66,7 +66,7 @@ impl MeshArrays<2> for Dimension<2> {
         [mesh.triangles.as_flattened(), halfedges, &mesh.hull]
     }
 
-    fn vertex_simplex(mesh: &Mesh2) -> Vec<i32> {
+    fn vertex_simplex(mesh: &Mesh2) -> Vec<u32> {
         mesh::vertex_simplex(&mesh.triangles, mesh.duplicate_of.len())
     }
 

@@ -24,7 +24,7 @@ use crate::{
         readback::{Pace, Readback, Target},
         room::fitted,
     },
-    index::NO_INDEX,
+    index::NONE,
     parallel::{self, Threads},
     platform,
     slots::{self, share, unshare},
@@ -108,7 +108,7 @@ impl<'a> Arrays<'a> {
         }
     }
 
-    /// Reads the mesh. Its neighbours are numbers of tetrahedra, without facets, and [`NO_INDEX`] in the place of ghosts.
+    /// Reads the mesh. Its neighbours are numbers of tetrahedra, without facets, and [`NONE`] in the place of ghosts.
     async fn read(mut self) -> Result<(Triangulation3, Readback), Error> {
         let [tetrahedra, neighbors] = &mut self.lists;
         let reads = self.arrays.into_iter().zip([
@@ -141,7 +141,7 @@ impl Target for Words<'_> {
             let (words, _) = piece[4 * at..].as_chunks();
             for (number, word) in chunk.iter_mut().zip(words) {
                 let across = u32::from_ne_bytes(*word) >> 2;
-                *number = if across < end { across } else { NO_INDEX };
+                *number = if across < end { across } else { NONE };
             }
         });
     }
@@ -188,7 +188,7 @@ fn apply(patch: &Patch, mesh: &mut Triangulation3) -> Result<(), Error> {
             shared.store(word, Relaxed);
         }
     });
-    let visible = |t: u32| if tetrahedra[4 * t as usize + 3].load(Relaxed) == infinite { NO_INDEX } else { t };
+    let visible = |t: u32| if tetrahedra[4 * t as usize + 3].load(Relaxed) == infinite { NONE } else { t };
     // The tetrahedron across a facet may not have changed itself, but may have had another one, or a ghost, there.
     for_changed(&|i, slot| {
         for (k, &across) in patch.neighbors[i].iter().enumerate().filter(|(_, across)| **across != KEEP) {
@@ -219,7 +219,7 @@ fn without_gaps(mesh: Triangulation3, gaps: &[Gaps]) -> FiniteMesh {
                 tetrahedra[to].store(tetrahedra[from].load(Relaxed), Relaxed);
                 let across = neighbors[from].load(Relaxed);
                 let across = match (across as usize).checked_sub(count) {
-                    Some(behind) => moved_to.get(behind).copied().unwrap_or(NO_INDEX),
+                    Some(behind) => moved_to.get(behind).copied().unwrap_or(NONE),
                     None => {
                         replace(across, last, gap);
                         across

@@ -38,7 +38,7 @@ impl Complete<3> for Dimension<3> {
     const ROUNDS_SHARE: f64 = 0.6;
 
     fn take_lists(mesh: &mut Mesh3) -> [Vec<[u32; 4]>; 2] {
-        [std::mem::take(&mut mesh.tetrahedra), bytemuck::cast_vec(std::mem::take(&mut mesh.neighbors))]
+        [std::mem::take(&mut mesh.tetrahedra), std::mem::take(&mut mesh.neighbors)]
     }
 
     fn tracer(options: &Options) -> Option<Tracer> {

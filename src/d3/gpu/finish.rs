@@ -27,7 +27,7 @@ pub struct NearMesh {
     pub finite: usize,
     /// The vertices with a facet that is not locally Delaunay, ascending.
     pub failed: Vec<u32>,
-    /// One tetrahedron of each vertex, infinity last; [`NONE`](crate::gpu::layout::NONE) for points
+    /// One tetrahedron of each vertex, infinity last; [`NONE`](crate::NONE) for points
     /// that are merged into others.
     pub tet_of: Vec<u32>,
     /// Tetrahedra, ascending, that are flat (bit 4); and where coordinates were rounded to the

@@ -18,7 +18,7 @@ use crate::{
         host::{Answer, Fit, MakeStart, Merged, Report, Request, Side, Work, answer_words},
         message::{Message, Packer, Unpacker, message},
     },
-    index::{NO_INDEX, NONE},
+    index::NONE,
     parallel::{self, Threads},
     predicates::filter::PredicateContext,
     stats::{ExactCounts, Phase, SplayStats},
@@ -31,7 +31,7 @@ pub struct Work3 {
     kept: KeptRegion,
     /// Prepared for the run: a region without stars, and the field `duplicate_of` without duplicates.
     region: Option<Region>,
-    duplicate_of: Vec<i32>,
+    duplicate_of: Vec<u32>,
     /// What splaying has come to, if it lacks stars, and which.
     lacking: Option<(Splay, Vec<u32>)>,
     /// The slots of the mesh.
@@ -182,7 +182,7 @@ pub(super) struct Begun {
     pub(super) step: Result<Step, Aborted>,
     /// How many points the mesh lacked.
     pub(super) missing: usize,
-    pub(super) duplicate_of: Vec<i32>,
+    pub(super) duplicate_of: Vec<u32>,
     pub(super) exact: ExactCounts,
 }
 message!(Begun { step, missing, duplicate_of, exact });
@@ -227,7 +227,7 @@ fn begin(
 ) -> Result<(Region, Doubts), Aborted> {
     let infinite = region.infinite();
     let first = region.next();
-    let mut numbers = vec![NO_INDEX; uncertain.len()];
+    let mut numbers = vec![NONE; uncertain.len()];
     // Most tetrahedra are certain, which a bit tells sooner than a search.
     let mut is_uncertain = IndexSet::new(uncertain.last().map_or(0, |&t| t as usize + 1));
     uncertain.iter().for_each(|&t| is_uncertain.insert(t));
@@ -236,7 +236,7 @@ fn begin(
             numbers[i] = number;
         }
     }
-    if numbers.contains(&NO_INDEX) {
+    if numbers.contains(&NONE) {
         return Err(Aborted::Inconsistent("an uncertain tetrahedron was not gathered"));
     }
     let uncertain = numbers;
@@ -339,9 +339,9 @@ pub(super) struct Whole {
 #[derive(Debug)]
 pub(super) struct WholeSplayed {
     pub(super) tetrahedra: Vec<[u32; 4]>,
-    pub(super) neighbors: Vec<[i32; 4]>,
+    pub(super) neighbors: Vec<[u32; 4]>,
     pub(super) hull: Vec<[u32; 3]>,
-    pub(super) duplicate_of: Vec<i32>,
+    pub(super) duplicate_of: Vec<u32>,
     pub(super) missing: usize,
     pub(super) stats: SplayStats,
     pub(super) exact: ExactCounts,

@@ -161,7 +161,7 @@ impl MeshArrays<3> for Dimension<3> {
         [mesh.tetrahedra.as_flattened(), neighbors, mesh.hull.as_flattened()]
     }
 
-    fn vertex_simplex(mesh: &Mesh3) -> Vec<i32> {
+    fn vertex_simplex(mesh: &Mesh3) -> Vec<u32> {
         mesh::vertex_simplex(&mesh.tetrahedra, mesh.duplicate_of.len())
     }
 

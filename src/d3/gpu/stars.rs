@@ -18,7 +18,7 @@ use crate::{
 pub(super) struct Splayed {
     /// What has changed in the mesh.
     pub(super) patch: Patch,
-    pub(super) duplicate_of: Vec<i32>,
+    pub(super) duplicate_of: Vec<u32>,
 }
 
 /// Splays the mesh on the device with the stars that this needs, which are gathered from it.

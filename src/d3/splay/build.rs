@@ -11,7 +11,7 @@ use crate::d3::splay::{
     star::{Changes, Star, Triangle},
 };
 use crate::{
-    index::NO_INDEX,
+    index::NONE,
     parallel::{self, Threads},
 };
 
@@ -59,7 +59,7 @@ impl Known {
         let may_fail = |v: u32| v == predicates.infinite() || self.failed.has(v);
         let flips = is_oriented.then(|| flip_flop(&mut star, predicates, may_fail, edges, removed)).flatten();
         if flips.is_none() {
-            removed.extend(star.used().filter(|t| t.tetrahedron != NO_INDEX));
+            removed.extend(star.used().filter(|t| t.tetrahedron != NONE));
             let mut points: Vec<u32> = removed.iter().flat_map(|t| t.vertices).collect();
             points.sort_unstable();
             points.dedup();
@@ -106,14 +106,14 @@ fn recognize(star: &mut Star, removed: &mut Vec<Triangle>) -> (Vec<u32>, Vec<Tri
         are_same
     });
     let mut added = Vec::new();
-    for (i, t) in star.triangles.iter_mut().enumerate().filter(|(_, t)| t.is_used() && t.tetrahedron == NO_INDEX) {
+    for (i, t) in star.triangles.iter_mut().enumerate().filter(|(_, t)| t.is_used() && t.tetrahedron == NONE) {
         match removed.binary_search_by_key(&rotated(t.vertices), |t| t.vertices) {
-            Ok(at) if removed[at].tetrahedron != NO_INDEX => {
-                t.tetrahedron = std::mem::replace(&mut removed[at].tetrahedron, NO_INDEX);
+            Ok(at) if removed[at].tetrahedron != NONE => {
+                t.tetrahedron = std::mem::replace(&mut removed[at].tetrahedron, NONE);
             }
             _ => added.push(i as u32),
         }
     }
-    removed.retain(|t| t.tetrahedron != NO_INDEX);
+    removed.retain(|t| t.tetrahedron != NONE);
     (added, doubles)
 }

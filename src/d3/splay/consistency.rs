@@ -28,7 +28,7 @@ use crate::{
         region::Region,
         star::Star,
     },
-    index::NO_INDEX,
+    index::NONE,
     parallel::{self, Pool, Threads},
     stats::SplayStats,
 };
@@ -68,7 +68,7 @@ pub(super) struct Splaying {
 #[derive(Debug, Clone, Copy)]
 struct Request {
     vertex: u32,
-    /// The point whose insertion removes the tetrahedron, or [`NO_INDEX`] to insert its vertices.
+    /// The point whose insertion removes the tetrahedron, or [`NONE`] to insert its vertices.
     witness: u32,
     /// The place of the tetrahedron among those that are unsettled.
     tetrahedron: u32,
@@ -265,7 +265,7 @@ impl Splaying {
         match vertices.iter().find(|&&v| held.never(key, v)) {
             None => {
                 let lacking = vertices.iter().filter(|&&v| !held.has(key, v));
-                requests.extend(lacking.map(|&v| request(v, NO_INDEX)));
+                requests.extend(lacking.map(|&v| request(v, NONE)));
             }
             Some(&v) => {
                 let star = self.star(v).ok_or(NO_REASON)?;
@@ -320,7 +320,7 @@ impl Splaying {
         for (i, request) in requests.iter().enumerate() {
             let tetrahedron = self.unsettled[request.tetrahedron as usize];
             match request.witness {
-                NO_INDEX => {
+                NONE => {
                     let others = self.ledger.finite(&tetrahedron).iter().filter(|&&p| p != star.vertex);
                     points.extend(others.map(|&p| entry(p, i)));
                 }
@@ -338,7 +338,7 @@ impl Splaying {
                 entries.extend(Entry::changes(star, &changes.removed, &changes.added));
             }
         }
-        let tried = requests.iter().filter(|request| request.witness == NO_INDEX);
+        let tried = requests.iter().filter(|request| request.witness == NONE);
         entries.extend(tried.map(|request| Entry::tried(self.unsettled[request.tetrahedron as usize], star.vertex)));
         Ok(insertions)
     }

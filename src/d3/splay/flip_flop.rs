@@ -14,7 +14,7 @@ use crate::d3::splay::{
     predicates::StarPredicates,
     star::{Star, Triangle},
 };
-use crate::index::NO_INDEX;
+use crate::index::NONE;
 
 /// The maximum number of flips per triangle of the link. A star that needs more is built from its
 /// points.
@@ -111,7 +111,7 @@ impl Flipping<'_> {
         let (j, l) = (across as usize / 4, across as usize % 4);
         let (ti, tj) = (star.triangles[i], star.triangles[j]);
         let Corners { a, b, c, d } = Corners::of(star, edge)?;
-        self.removed.extend([ti, tj].iter().filter(|t| t.tetrahedron != NO_INDEX));
+        self.removed.extend([ti, tj].iter().filter(|t| t.tetrahedron != NONE));
         let (bc, ca) = (ti.neighbors[(k + 1) % 3], ti.neighbors[(k + 2) % 3]);
         let (ad, db) = (tj.neighbors[(l + 1) % 3], tj.neighbors[(l + 2) % 3]);
         star.triangles[i] = Triangle::new([c, a, d]);
@@ -175,7 +175,7 @@ impl Flipping<'_> {
         if !outside || predicates.orient(star.tetrahedron(v)) <= 0 {
             return None;
         }
-        self.removed.extend(triangles.iter().filter(|t| t.tetrahedron != NO_INDEX));
+        self.removed.extend(triangles.iter().filter(|t| t.tetrahedron != NONE));
         let slot = spokes[0] >> 2;
         star.release(spokes[1] >> 2);
         star.release(spokes[2] >> 2);

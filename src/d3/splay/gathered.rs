@@ -1,7 +1,7 @@
 //! The stars that splaying asks for, as they come from the device.
 
 use crate::{
-    index::NO_INDEX,
+    index::NONE,
     parallel::{self, Threads},
 };
 
@@ -35,7 +35,7 @@ impl Gathered {
         }
         self.tetrahedra.resize(len, [OUTSIDE; 4]);
         self.neighbors.resize(len, [OUTSIDE; 4]);
-        self.slots.resize(len, NO_INDEX);
+        self.slots.resize(len, NONE);
         parallel::extend(threads, &mut self.tetrahedra, &others.tetrahedra);
         parallel::extend(threads, &mut self.neighbors, &others.neighbors);
         parallel::extend(threads, &mut self.slots, &others.slots);
@@ -46,6 +46,6 @@ impl Gathered {
     /// gathered.
     pub(super) fn of(&self, number: usize) -> Option<(&[u32; 4], &[u32; 4])> {
         let i = number.wrapping_sub(1);
-        (*self.slots.get(i)? != NO_INDEX).then_some((&self.tetrahedra[i], &self.neighbors[i]))
+        (*self.slots.get(i)? != NONE).then_some((&self.tetrahedra[i], &self.neighbors[i]))
     }
 }

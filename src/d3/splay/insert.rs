@@ -10,12 +10,12 @@ use crate::{
         triangulation::Triangulation3,
     },
     error::Error,
-    index::NO_INDEX,
+    index::NONE,
     predicates::filter::{PredicateContext3, PredicatesAt},
 };
 use rustc_hash::FxHashMap;
 
-/// Inserts those of the `missing` vertices, each with a vertex near it or with [`NO_INDEX`], of which
+/// Inserts those of the `missing` vertices, each with a vertex near it or with [`NONE`], of which
 /// the region has the whole cavity; the others remain. Returns vertices whose stars they need.
 pub(super) fn insert(
     region: &mut Region,
@@ -23,20 +23,20 @@ pub(super) fn insert(
     missing: &mut Vec<[u32; 2]>,
     report: &dyn Fn(f64) -> Result<(), Error>,
 ) -> Result<Vec<u32>, Stop> {
-    let near = missing.iter().map(|&[_, near]| near).filter(|&near| near != NO_INDEX);
+    let near = missing.iter().map(|&[_, near]| near).filter(|&near| near != NONE);
     let mut lacking = region.lacking(near);
     if missing.is_empty() || !lacking.is_empty() {
         return Ok(lacking);
     }
     let mut scratch = Insert::scratch(&region.mesh);
     let mut links = LinkFinder::default();
-    let first = region.incident.iter().copied().find(|&t| t != NO_INDEX);
+    let first = region.incident.iter().copied().find(|&t| t != NONE);
     let mut last = first.ok_or(Aborted::Inconsistent("no vertex has a tetrahedron"))?;
     for (i, [p, near]) in std::mem::take(missing).into_iter().enumerate() {
         if i % <Triangulation3 as Insert<3>>::REPORT == 0 {
             report(1.0)?;
         }
-        let start = region.incident.get(near as usize).copied().filter(|&t| t != NO_INDEX).unwrap_or(last);
+        let start = region.incident.get(near as usize).copied().filter(|&t| t != NONE).unwrap_or(last);
         match cavity(region, vertices, p, start) {
             Ok(start) => {
                 let inserted = region.mesh.insert(vertices, p, start, &mut scratch)?;

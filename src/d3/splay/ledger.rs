@@ -5,7 +5,7 @@ use crate::d3::splay::{
     star::{Star, Triangle},
 };
 use crate::{
-    index::NO_INDEX,
+    index::NONE,
     parallel::{self, Threads},
 };
 use rustc_hash::FxHashMap;
@@ -36,7 +36,7 @@ pub(super) struct Held {
     never: u8,
     /// Whether it has changed and is still to be examined.
     touched: bool,
-    /// The slot of the tetrahedron in the triangulation, or [`NO_INDEX`].
+    /// The slot of the tetrahedron in the triangulation, or [`NONE`].
     tetrahedron: u32,
 }
 
@@ -53,7 +53,7 @@ pub(super) struct Entry {
 pub(super) enum Event {
     /// The star has it now.
     Gained,
-    /// The star no longer has it. The triangulation has it in this slot, or [`NO_INDEX`].
+    /// The star no longer has it. The triangulation has it in this slot, or [`NONE`].
     Lost(u32),
     /// Its vertices were inserted into the star.
     Tried,
@@ -226,11 +226,11 @@ impl Ledger {
                         doubles.push(slot);
                         continue;
                     }
-                    Event::Lost(NO_INDEX) | Event::Tried => held_by_key.get_mut(&key).ok_or(UNKNOWN)?,
+                    Event::Lost(NONE) | Event::Tried => held_by_key.get_mut(&key).ok_or(UNKNOWN)?,
                     Event::Lost(tetrahedron) => {
                         held_by_key.entry(key).or_insert(Held::new(all(key, infinite), tetrahedron))
                     }
-                    Event::Gained => held_by_key.entry(key).or_insert(Held::new(0, NO_INDEX)),
+                    Event::Gained => held_by_key.entry(key).or_insert(Held::new(0, NONE)),
                 };
                 held.enter(bit(key, entry.vertex), entry.event)?;
                 if !std::mem::replace(&mut held.touched, true) {
@@ -264,9 +264,9 @@ impl Ledger {
             let (mut remove, mut add) = (Vec::new(), Vec::new());
             for (&key, held) in held_by_key.iter() {
                 match (held.by, held.tetrahedron) {
-                    (0, NO_INDEX) => {}
+                    (0, NONE) => {}
                     (0, slot) => remove.push(slot),
-                    (by, NO_INDEX) if by == all(key, infinite) => add.push(key),
+                    (by, NONE) if by == all(key, infinite) => add.push(key),
                     _ => return Err(Aborted::Inconsistent("a tetrahedron is unsettled at the end")),
                 }
             }

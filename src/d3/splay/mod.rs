@@ -27,7 +27,7 @@ mod star;
 use crate::{
     d3::triangulation::{Triangulation3, state},
     error::Error,
-    index::NO_INDEX,
+    index::NONE,
     parallel::{self, Threads},
     predicates::filter::PredicateContext3,
     stats::{Fallback, SplayStats},
@@ -49,7 +49,7 @@ pub struct NearDelaunay3 {
     /// All tetrahedra, ghosts included. Inverted and flat ones are allowed if they are among the
     /// uncertain ones.
     pub triangulation: Triangulation3,
-    /// A tetrahedron at each vertex, a ghost if there is one; [`NO_INDEX`] for the vertices that
+    /// A tetrahedron at each vertex, a ghost if there is one; [`NONE`] for the vertices that
     /// are missing.
     pub incident: Vec<u32>,
     /// The vertices of all facets that are known not to be locally Delaunay, the facets of ghosts
@@ -73,7 +73,7 @@ pub struct Doubts {
     /// Delaunay for other reasons. The region has the stars of their vertices.
     pub uncertain: Vec<u32>,
     /// The vertices that the triangulation lacks, each with one near it that it has, or with
-    /// [`NO_INDEX`] if it is near the one before.
+    /// [`NONE`] if it is near the one before.
     pub missing: Vec<[u32; 2]>,
 }
 
@@ -180,7 +180,7 @@ pub fn splay_again(
     kept: &mut KeptRegion,
 ) -> Result<SplayOutcome, Error> {
     let NearDelaunay3 { triangulation, incident, failed, uncertain, missing } = near;
-    let missing = missing.into_iter().map(|v| [v, NO_INDEX]).collect();
+    let missing = missing.into_iter().map(|v| [v, NONE]).collect();
     let region = Region::whole(kept.take(), triangulation, incident);
     let splayed = || -> Result<_, Stop> {
         let mut splay = Splay::begin(vertices, region, Doubts { failed, uncertain, missing }, terms)?;

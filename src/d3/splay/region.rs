@@ -15,7 +15,7 @@ use crate::{
         },
         triangulation::{Triangulation3, state},
     },
-    index::NO_INDEX,
+    index::NONE,
     parallel::{self, Threads},
 };
 
@@ -72,7 +72,7 @@ impl Region {
         let infinite = vertices as u32;
         Region {
             mesh: Self::outside(Vec::new(), Vec::new(), infinite),
-            incident: parallel::filled(threads, vertices, NO_INDEX),
+            incident: parallel::filled(threads, vertices, NONE),
             complete: Complete::Those(IndexSet::new(vertices)),
             given: Gathered::default(),
             gathers: [0; 2],
@@ -99,7 +99,7 @@ impl Region {
         mesh.tetrahedra.clear();
         mesh.neighbors.clear();
         let mesh = Self::outside(mesh.tetrahedra, mesh.neighbors, infinite);
-        parallel::for_chunks(threads, &mut incident, |_, incident| incident.fill(NO_INDEX));
+        parallel::for_chunks(threads, &mut incident, |_, incident| incident.fill(NONE));
         memory.keep_gathered(given);
         let complete = Complete::Those(IndexSet::new(vertices));
         Region { mesh, incident, complete, given: Gathered::default(), gathers: [0; 2], memory }
@@ -135,7 +135,7 @@ impl Region {
 
     /// Takes the triangulation out: the whole one, if the region is that. What is left is memory for another run.
     pub(super) fn take_mesh(&mut self) -> Triangulation3 {
-        std::mem::replace(&mut self.mesh, Triangulation3::new(Vec::new(), Vec::new(), NO_INDEX))
+        std::mem::replace(&mut self.mesh, Triangulation3::new(Vec::new(), Vec::new(), NONE))
     }
 
     /// Returns whether the region has the whole star of a vertex.
@@ -257,11 +257,11 @@ impl Region {
         let Region { mesh, given, .. } = self;
         // What splaying added is in no slot yet. Numbers of slots stay below 2³⁰ if those of the
         // region do, of which no more are added than the triangulation may have.
-        let mut slots = vec![NO_INDEX; mesh.tetrahedra.len()];
+        let mut slots = vec![NONE; mesh.tetrahedra.len()];
         slots[1..][..given.slots.len()].copy_from_slice(&given.slots);
         let mut next = len as u32;
         for (t, slot) in (0..).zip(&mut slots).skip(1) {
-            if *slot == NO_INDEX && mesh.state(t) != state::FREE {
+            if *slot == NONE && mesh.state(t) != state::FREE {
                 *slot = next;
                 next += 1;
             }
@@ -272,7 +272,7 @@ impl Region {
                 let (v, across) = (mesh.tetrahedra[t], mesh.neighbors[t]);
                 let given = given.of(t);
                 let is_given = given == Some((&v, &across));
-                if slots[t] == NO_INDEX || is_given {
+                if slots[t] == NONE || is_given {
                     continue;
                 }
                 let is_free = v[0] & state::MASK == state::FREE;

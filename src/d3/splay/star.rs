@@ -9,17 +9,17 @@
 
 use crate::d3::splay::{Aborted, predicates::StarPredicates};
 use crate::d3::{mesh::FACETS, triangulation::Triangulation3};
-use crate::index::NO_INDEX;
+use crate::index::NONE;
 
 /// A triangle of a link.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Triangle {
-    /// Counter-clockwise as seen from outside; all are [`NO_INDEX`] in an unused slot.
+    /// Counter-clockwise as seen from outside; all are [`NONE`] in an unused slot.
     pub(super) vertices: [u32; 3],
     /// Entry *k* is across the edge opposite corner *k*: 4·(triangle) + (corner opposite the edge
     /// there).
     pub(super) neighbors: [u32; 3],
-    /// The tetrahedron of the triangulation to which it belongs, or [`NO_INDEX`].
+    /// The tetrahedron of the triangulation to which it belongs, or [`NONE`].
     pub(super) tetrahedron: u32,
     /// What the insertion with number `epoch` found out: 2·epoch if the triangle is visible,
     /// 2·epoch + 1 if it is hidden.
@@ -28,11 +28,11 @@ pub(super) struct Triangle {
 
 impl Triangle {
     pub(super) fn new(vertices: [u32; 3]) -> Self {
-        Triangle { vertices, neighbors: [NO_INDEX; 3], tetrahedron: NO_INDEX, seen: 0 }
+        Triangle { vertices, neighbors: [NONE; 3], tetrahedron: NONE, seen: 0 }
     }
 
     pub(super) fn is_used(&self) -> bool {
-        self.vertices[0] != NO_INDEX
+        self.vertices[0] != NONE
     }
 
     /// Returns how many corners it has in common with a tetrahedron, without a branch.
@@ -46,7 +46,7 @@ impl Triangle {
 pub(super) struct Star {
     pub(super) vertex: u32,
     pub(super) triangles: Vec<Triangle>,
-    /// The unused slot that is taken next, or [`NO_INDEX`]. It has the one after that in place of a neighbour.
+    /// The unused slot that is taken next, or [`NONE`]. It has the one after that in place of a neighbour.
     free: u32,
     /// A triangle that was created recently, where the next walk starts.
     recent: u32,
@@ -78,7 +78,7 @@ pub(super) struct LinkFinder {
 }
 
 /// An unused entry of a table.
-const NOTHING: [u32; 2] = [NO_INDEX; 2];
+const NOTHING: [u32; 2] = [NONE; 2];
 
 /// A tetrahedron around a vertex.
 ///
@@ -196,7 +196,7 @@ impl LinkFinder {
 
 impl Star {
     fn new(vertex: u32, triangles: Vec<Triangle>) -> Self {
-        Star { vertex, triangles, free: NO_INDEX, recent: 0, epoch: 0 }
+        Star { vertex, triangles, free: NONE, recent: 0, epoch: 0 }
     }
 
     /// Builds the convex star of `vertex` among `points`, infinity and the spanning tetrahedron.
@@ -465,7 +465,7 @@ impl Star {
     /// Adds a triangle in an unused slot, or in a new one.
     fn push(&mut self, triangle: Triangle) -> u32 {
         match self.free {
-            NO_INDEX => {
+            NONE => {
                 self.triangles.push(triangle);
                 self.triangles.len() as u32 - 1
             }
@@ -480,7 +480,7 @@ impl Star {
     /// Marks the slot of triangle `t` as unused.
     pub(super) fn release(&mut self, t: u32) {
         let triangle = &mut self.triangles[t as usize];
-        triangle.vertices = [NO_INDEX; 3];
+        triangle.vertices = [NONE; 3];
         triangle.neighbors[0] = std::mem::replace(&mut self.free, t);
     }
 

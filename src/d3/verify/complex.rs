@@ -2,11 +2,11 @@
 //! counts.
 
 use crate::verify::report::{Defect, Findings};
-use crate::{d3::mesh::FACETS, index::NONE};
+use crate::{
+    d3::mesh::FACETS,
+    index::{Entry, NONE},
+};
 use std::ops::Range;
-
-/// The mark for "no tetrahedron" in [`Complex::across`].
-const OUTSIDE: u32 = u32::MAX;
 
 /// A facet of one tetrahedron.
 #[derive(Debug, Clone, Copy)]
@@ -64,14 +64,14 @@ impl<'a> Complex<'a> {
     /// Derives the adjacency. Needs vertices that are indices of points, four different ones per
     /// tetrahedron.
     pub(crate) fn new(tetrahedra: &'a [[u32; 4]], points: usize) -> Self {
-        let across = vec![[OUTSIDE; 4]; tetrahedra.len()];
+        let across = vec![[NONE; 4]; tetrahedra.len()];
         let mut complex = Complex { tetrahedra, across, ..Complex::default() };
         let stars = LowerStars::new(tetrahedra, points);
         // Every edge and every facet is met in the star of its lowest vertex. Vertices in
         // the order in which they appear are near each other, and so are their tetrahedra in
         // memory.
         let order = first_appearances(tetrahedra, points);
-        let mut seen_from = vec![OUTSIDE; points];
+        let mut seen_from = vec![NONE; points];
         let mut facets = Vec::new();
         for &v in &order {
             facets.clear();
@@ -132,7 +132,7 @@ impl<'a> Complex<'a> {
         let sides = tetrahedra.flat_map(|tetrahedron| (0..4).map(move |k| Side { tetrahedron, k }));
         sides.filter_map(|side| {
             let beyond = self.across[side.tetrahedron][side.k];
-            if beyond == OUTSIDE || (beyond as usize) < side.tetrahedron {
+            if beyond == NONE || (beyond as usize) < side.tetrahedron {
                 return None;
             }
             let corners = self.corners(side);
@@ -145,7 +145,7 @@ impl<'a> Complex<'a> {
         std::mem::take(&mut self.bad_facets)
     }
 
-    pub(crate) fn check_neighbors(&self, stated: &[[i32; 4]]) -> Findings {
+    pub(crate) fn check_neighbors(&self, stated: &[[u32; 4]]) -> Findings {
         let mut findings = Findings::default();
         if stated.len() != self.tetrahedra.len() {
             let detail = format!("neighbors of {} tetrahedra, not of {}", stated.len(), self.tetrahedra.len());
@@ -154,10 +154,10 @@ impl<'a> Complex<'a> {
         }
         for (t, (stated, across)) in stated.iter().zip(&self.across).enumerate() {
             for k in 0..4 {
-                let expected = if across[k] == OUTSIDE { NONE } else { across[k] as i32 };
-                if stated[k] != expected {
+                if stated[k] != across[k] {
                     findings.add(|| {
-                        let detail = format!("the neighbor across facet {k} is {expected}, not {}", stated[k]);
+                        let detail =
+                            format!("the neighbor across facet {k} is {}, not {}", Entry(across[k]), Entry(stated[k]));
                         Defect::at_tetrahedron(t, detail)
                     });
                 }

@@ -25,7 +25,7 @@ use complex::Complex;
 /// let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0f64]];
 /// // A mesh of another program, with its own arrays.
 /// let mut mesh = MeshView3::of_tetrahedra(&[[0, 1, 2, 3]]);
-/// mesh.neighbors = Some(&[[-1; 4]]);
+/// mesh.neighbors = Some(&[[gdel::NONE; 4]]);
 /// assert!(verify3d(&points, mesh)?.passed());
 /// # Ok::<(), gdel::Error>(())
 /// ```
@@ -35,12 +35,12 @@ pub struct MeshView3<'a> {
     /// The vertices of each tetrahedron: see [`Mesh3::tetrahedra`].
     pub tetrahedra: &'a [[u32; 4]],
     /// The tetrahedra across the facets: see [`Mesh3::neighbors`].
-    pub neighbors: Option<&'a [[i32; 4]]>,
+    pub neighbors: Option<&'a [[u32; 4]]>,
     /// The triangles of the hull in any order, each from any of its vertices on: see
     /// [`Mesh3::hull`].
     pub hull: Option<&'a [[u32; 3]]>,
     /// The points that stand for duplicates: see [`Mesh3::duplicate_of`].
-    pub duplicate_of: Option<&'a [i32]>,
+    pub duplicate_of: Option<&'a [u32]>,
     /// The affine dimension of the points: see [`Mesh3::dimension`].
     pub dimension: Option<u8>,
 }

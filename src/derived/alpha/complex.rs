@@ -94,7 +94,7 @@ where
     /// Returns for each simplex the number of its component, and the number of components.
     /// Components are simplices that hang together across facets, counted in the order of their
     /// first simplices; those that are no part of the complex have [`NONE`](crate::NONE).
-    pub fn components(&self) -> (Vec<i32>, usize) {
+    pub fn components(&self) -> (Vec<u32>, usize) {
         let Sorted { complex, places, .. } = &self.shape.radii.mesh;
         let mut sets = DisjointSets::new(self.is_solid.len());
         for t in (0..self.is_solid.len()).filter(|&t| self.is_solid[t]) {

@@ -9,7 +9,7 @@ use super::{
 };
 use crate::{
     geometry::{Euclidean, is_obtuse},
-    index::{NO_INDEX, NONE},
+    index::NONE,
     mesh::Csr,
 };
 
@@ -49,7 +49,7 @@ impl AlphaEdges<3, 4> for Euclidean {
         let own = |t: usize, k: usize| facets.get(places[t][k] as usize).copied().unwrap_or(f64::INFINITY);
         let mut edges = Edges::with_capacity((vertices + facets.len()).saturating_sub(complex.simplices.len()));
         // The last vertex from which each vertex was reached, and the edge between both.
-        let mut reached = vec![(NO_INDEX, 0u32); vertices];
+        let mut reached = vec![(NONE, 0u32); vertices];
         let stars = Csr::stars(&complex.simplices, vertices);
         for v in 0..vertices as u32 {
             for &t in stars.of(v) {
@@ -134,7 +134,7 @@ pub(super) fn largest(a: f64, b: f64) -> f64 {
 /// Returns for each simplex the places of its facets in the list that has each facet with the
 /// simplex of the lower index.
 fn facet_places<const D: usize, const N: usize>(complex: &Complex<'_, D, N>) -> Vec<[u32; N]> {
-    let mut places = vec![[NO_INDEX; N]; complex.simplices.len()];
+    let mut places = vec![[NONE; N]; complex.simplices.len()];
     let mut count = 0;
     for t in 0..places.len() {
         for k in (0..N).filter(|&k| is_listed(complex, t, k)) {

@@ -232,7 +232,7 @@ where
             simplices.chain(facets).chain(edges).filter(|&(_, r)| r < f64::INFINITY || r.is_nan()).collect();
         let vertices = |i: u32| {
             let (face, squared) = &own[i as usize];
-            let count = face.iter().take_while(|&&v| v != u32::MAX).count();
+            let count = face.iter().take_while(|&&v| v != NONE).count();
             (&face[..count], *squared)
         };
         let groups = Groups::new(
@@ -407,9 +407,9 @@ fn given_edge(mesh: &Sorted<3, 4>, edge: [u32; 2]) -> [u32; 2] {
     [v.min(w), v.max(w)]
 }
 
-/// Returns the vertices of a face with `u32::MAX` in the unused places.
+/// Returns the vertices of a face with [`NONE`](crate::NONE) in the unused places.
 fn face(vertices: &[u32]) -> [u32; 4] {
-    let mut face = [u32::MAX; 4];
+    let mut face = [NONE; 4];
     face[..vertices.len()].copy_from_slice(vertices);
     face
 }

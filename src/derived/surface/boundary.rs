@@ -8,7 +8,7 @@
 use super::super::{complex::Complex, sets::DisjointSets, sorted::even_order};
 use crate::{
     geometry::{Euclidean, Geometry, facet, factorial, vector},
-    index::NO_INDEX,
+    index::NONE,
     parallel::{self, Threads},
 };
 
@@ -44,20 +44,20 @@ impl<const D: usize> Boundary<D> {
         // The numbers of the facets, by the simplices that have any, and where each simplex is among
         // these.
         let mut numbers: Vec<[u32; N]> = Vec::new();
-        let mut places = vec![NO_INDEX; is_inside.len()];
+        let mut places = vec![NONE; is_inside.len()];
         for (number, &(_, Side { simplex, facet })) in (0..).zip(&sides) {
             let place = &mut places[simplex as usize];
-            if *place == NO_INDEX {
+            if *place == NONE {
                 *place = numbers.len() as u32;
-                numbers.push([NO_INDEX; N]);
+                numbers.push([NONE; N]);
             }
             numbers[*place as usize][usize::from(facet)] = number;
         }
         let number = |side: Side| {
             let numbers = numbers.get(places[side.simplex as usize] as usize);
-            numbers.map_or(NO_INDEX, |numbers| numbers[usize::from(side.facet)])
+            numbers.map_or(NONE, |numbers| numbers[usize::from(side.facet)])
         };
-        let mut mates = vec![[NO_INDEX; D]; sides.len()];
+        let mut mates = vec![[NONE; D]; sides.len()];
         parallel::for_chunks(Threads::All, &mut mates, |start, chunk| {
             for (mates, &(vertices, side)) in chunk.iter_mut().zip(&sides[start..]) {
                 for (mate, v) in mates.iter_mut().zip(vertices) {
@@ -124,7 +124,7 @@ impl<const D: usize> Boundary<D> {
             (facet[0], facet[1], facet[D - 1]) = (corners[h as usize], middle, corners[last as usize]);
             corners[last as usize] = middle;
             self.facets.push(facet);
-            self.mates.push([NO_INDEX; D]);
+            self.mates.push([NONE; D]);
             let outer = self.mates.as_flattened()[after as usize];
             self.link(new + 1, outer);
             self.link(after, new + 2);
@@ -147,7 +147,7 @@ impl<const D: usize> Boundary<D> {
         let mut sets = DisjointSets::new(self.facets.len());
         let mut count = self.facets.len();
         for (f, mates) in (0..).zip(&self.mates) {
-            for mate in mates.iter().filter(|&&mate| mate != NO_INDEX) {
+            for mate in mates.iter().filter(|&&mate| mate != NONE) {
                 count -= usize::from(sets.unite(f, mate / D as u32));
             }
         }
@@ -158,7 +158,7 @@ impl<const D: usize> Boundary<D> {
     fn split_vertices(&mut self) {
         let mut cycles = DisjointSets::new(D * self.facets.len());
         for (f, mates) in self.mates.iter().enumerate() {
-            for (i, &mate) in mates.iter().enumerate().filter(|&(_, &mate)| mate != NO_INDEX) {
+            for (i, &mate) in mates.iter().enumerate().filter(|&(_, &mate)| mate != NONE) {
                 let (across, opposite) = (mate as usize / D, mate as usize % D);
                 // The other corners are those at the ridge.
                 for (j, v) in self.facets[f].iter().enumerate().filter(|&(j, _)| j != i) {
@@ -177,7 +177,7 @@ impl<const D: usize> Boundary<D> {
             .map(|(_, &root)| (corners[root as usize], root))
             .collect();
         parallel::sort(Threads::All, &mut vertices);
-        let mut names = vec![NO_INDEX; corners.len()];
+        let mut names = vec![NONE; corners.len()];
         for (name, &(_, root)) in (0..).zip(&vertices) {
             names[root as usize] = name;
         }

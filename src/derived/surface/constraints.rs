@@ -13,7 +13,7 @@ use super::{
     poles::{OUTSIDE, Poles, Spheres},
 };
 use crate::{
-    index::NO_INDEX,
+    index::NONE,
     mesh::Csr,
     parallel::{self, Threads},
 };
@@ -110,7 +110,7 @@ impl<'a> Constraints<'a> {
         poles: &'a [Poles],
     ) -> Self {
         let opposite = |poles: &Poles| match (poles.first, poles.second) {
-            (_, NO_INDEX) => 0,
+            (_, NONE) => 0,
             (OUTSIDE, _) => strength(NORMAL_SHARE * (1.0 - poles.cosine)),
             _ => strength(1.0 - poles.cosine),
         };

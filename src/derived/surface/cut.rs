@@ -8,7 +8,7 @@
 
 use super::super::complex::Complex;
 use crate::{
-    index::NO_INDEX,
+    index::NONE,
     parallel::{self, Threads},
 };
 use std::collections::VecDeque;
@@ -16,7 +16,7 @@ use std::collections::VecDeque;
 /// A simplex with its arcs.
 #[derive(Debug, Clone, Copy)]
 struct Node<const N: usize> {
-    /// The arc from the other side of each facet, as 4·(node) + (facet); [`NO_INDEX`] on the hull.
+    /// The arc from the other side of each facet, as 4·(node) + (facet); [`NONE`] on the hull.
     mates: [u32; N],
     /// How much can still flow through each facet to the other side.
     residual: [u16; N],
@@ -53,7 +53,7 @@ struct Network<const N: usize> {
 
 impl<const N: usize> Network<N> {
     fn new<const D: usize>(complex: &Complex<'_, D, N>, costs: &[[u16; N]], excess: &[i32]) -> Self {
-        let empty = Node { mates: [NO_INDEX; N], residual: [0; N], excess: 0, label: 0 };
+        let empty = Node { mates: [NONE; N], residual: [0; N], excess: 0, label: 0 };
         let mut nodes = parallel::filled(Threads::All, excess.len(), empty);
         parallel::for_chunks(Threads::All, &mut nodes, |start, chunk| {
             for (node, t) in chunk.iter_mut().zip(start..) {
@@ -102,7 +102,7 @@ impl<const N: usize> Network<N> {
             if excess > 0 {
                 self.active.push_back(t);
             }
-            for mate in mates.into_iter().filter(|&mate| mate != NO_INDEX) {
+            for mate in mates.into_iter().filter(|&mate| mate != NONE) {
                 let from = &mut self.nodes[(mate / 4) as usize];
                 if from.label == UNREACHED && from.residual[(mate % 4) as usize] > 0 {
                     from.label = label + 1;
@@ -120,7 +120,7 @@ impl<const N: usize> Network<N> {
             steps += 1;
             let Node { mates, mut residual, mut excess, label } = self.nodes[t as usize];
             let mut lowest = UNREACHED;
-            for k in (0..N).filter(|&k| mates[k] != NO_INDEX) {
+            for k in (0..N).filter(|&k| mates[k] != NONE) {
                 if residual[k] == 0 {
                     continue;
                 }

@@ -25,7 +25,7 @@ use super::{
 use crate::{
     error::Error,
     geometry::{Euclidean, Geometry, vector},
-    index::{NO_INDEX, NONE},
+    index::NONE,
     input::points::Points,
     mesh::{Csr, Mesh},
 };
@@ -173,7 +173,7 @@ where
         let components = boundary.components();
         let mut sources = boundary.sources;
         let sides = sides(&mesh, &is_inside, &sources);
-        sources.resize(vertices.len(), NO_INDEX);
+        sources.resize(vertices.len(), NONE);
         // The power of the scale may underflow.
         let unscaled = |measure: f64, power: usize| (0..power).fold(measure, |measure, _| measure / scale);
         Ok(Surface {

@@ -8,7 +8,7 @@
 use super::super::{complex::Complex, sorted::Sorted};
 use crate::{
     geometry::{Euclidean, Geometry, circumsphere, facet, vector},
-    index::NO_INDEX,
+    index::NONE,
     mesh::Csr,
     parallel::{self, Threads},
 };
@@ -54,7 +54,7 @@ impl<const D: usize> Spheres<D> {
 pub(super) struct Poles {
     /// The simplex with the farthest circumcentre; [`OUTSIDE`] for vertices of the hull.
     pub(super) first: u32,
-    /// The simplex with the farthest circumcentre in the opposite half-space; [`NO_INDEX`] if there
+    /// The simplex with the farthest circumcentre in the opposite half-space; [`NONE`] if there
     /// is none.
     pub(super) second: u32,
     /// The cosine of the angle between the directions to both; at a vertex of the hull, the first one
@@ -63,10 +63,10 @@ pub(super) struct Poles {
 }
 
 /// Stands for what is outside the hull as a pole.
-pub(super) const OUTSIDE: u32 = NO_INDEX - 1;
+pub(super) const OUTSIDE: u32 = NONE - 1;
 
 impl Poles {
-    const NONE: Poles = Poles { first: NO_INDEX, second: NO_INDEX, cosine: 0.0 };
+    const UNKNOWN: Poles = Poles { first: NONE, second: NONE, cosine: 0.0 };
 
     /// Returns the poles of all vertices; none for what is no vertex.
     pub(super) fn of_all<const D: usize, const N: usize>(
@@ -79,7 +79,7 @@ impl Poles {
     {
         let complex = &mesh.complex;
         let normals = hull_normals(complex);
-        let mut poles = vec![Poles::NONE; complex.points().len()];
+        let mut poles = vec![Poles::UNKNOWN; complex.points().len()];
         parallel::for_chunks(Threads::All, &mut poles, |start, chunk| {
             for (poles, v) in chunk.iter_mut().zip(start as u32..) {
                 *poles = Poles::of(complex, spheres, stars, v, normals[v as usize]);
@@ -114,7 +114,7 @@ impl Poles {
         let (first, direction) = if normal != [0.0; D] {
             (OUTSIDE, normal)
         } else {
-            let Some(first) = star.iter().copied().fold(None, farthest) else { return Poles::NONE };
+            let Some(first) = star.iter().copied().fold(None, farthest) else { return Poles::UNKNOWN };
             (first, to_center(first))
         };
         let is_opposite = |&t: &u32| vector::dot(to_center(t), direction) < 0.0;
@@ -122,7 +122,7 @@ impl Poles {
         let cosine = second.map_or(0.0, |t| {
             vector::dot(to_center(t), direction) / (spheres.radii[t as usize] * vector::norm(direction))
         });
-        Poles { first, second: second.unwrap_or(NO_INDEX), cosine }
+        Poles { first, second: second.unwrap_or(NONE), cosine }
     }
 }
 

@@ -1,9 +1,6 @@
 //! One Voronoi cell.
 
-use crate::{
-    index::{NO_INDEX, NONE},
-    mesh::Csr,
-};
+use crate::{index::NONE, mesh::Csr};
 
 /// The largest number of neighbours for which comparing each with all is faster than to sort them.
 const RANKED: usize = 48;
@@ -18,7 +15,7 @@ pub struct Cell<const D: usize = 3> {
     pub vertices: Vec<[f64; D]>,
     /// For each vertex the simplex of the mesh whose circumcentre it is; [`NONE`](crate::NONE) if
     /// clipping made it.
-    pub simplices: Vec<i32>,
+    pub simplices: Vec<u32>,
     /// The vertices of each facet: counter-clockwise as seen from outside in 3D, both ends
     /// counter-clockwise around the cell in 2D, where the facets are in this order, too, and those
     /// of an unbounded cell begin and end with its rays. The chain of an unbounded facet's vertices
@@ -27,7 +24,7 @@ pub struct Cell<const D: usize = 3> {
     pub facets: Csr,
     /// For each facet the point on the other side; [`NONE`](crate::NONE) where the cell was
     /// clipped.
-    pub neighbors: Vec<i32>,
+    pub neighbors: Vec<u32>,
     /// The area of each facet, its length in 2D; infinite for unbounded facets.
     pub areas: Vec<f64>,
     /// The volume, the area in 2D; infinite for unbounded cells.
@@ -65,19 +62,19 @@ impl<const D: usize> Cell<D> {
     pub fn neighbors(&self) -> Vec<u32> {
         let listed = self.neighbors.as_slice();
         if listed.len() > RANKED {
-            let mut sorted: Vec<u32> = listed.iter().filter(|&&v| v != NONE).map(|&v| v as u32).collect();
+            let mut sorted: Vec<u32> = listed.iter().copied().filter(|&v| v != NONE).collect();
             sorted.sort_unstable();
             sorted.dedup();
             return sorted;
         }
         // Each goes where the number of lower ones says, without branches, which nothing could
         // predict. What equals another one leaves a gap.
-        let mut sorted = vec![NO_INDEX; listed.len()];
+        let mut sorted = vec![NONE; listed.len()];
         for &v in listed {
             let rank: u32 = listed.iter().map(|&w| u32::from(w < v)).sum();
-            sorted[rank as usize] = v as u32;
+            sorted[rank as usize] = v;
         }
-        sorted.retain(|&v| v != NO_INDEX);
+        sorted.retain(|&v| v != NONE);
         sorted
     }
 

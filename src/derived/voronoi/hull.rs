@@ -50,11 +50,11 @@ where
                 piece.start(&corners.map(|p| vector::minus(p, site)), NONE);
                 for &w in neighbors.of(v) {
                     let to = vector::minus(complex.point(w), site);
-                    piece.halve(to, 0.5 * vector::squared_norm(to), w as i32);
+                    piece.halve(to, 0.5 * vector::squared_norm(to), w);
                 }
                 if !piece.is_empty() {
                     meetings.push([v, f as u32]);
-                    pending.extend(piece.names().filter(|&w| w != NONE).map(|w| w as u32).filter(|&w| seen.insert(w)));
+                    pending.extend(piece.names().filter(|&w| w != NONE && seen.insert(w)));
                 }
             }
         }

@@ -129,7 +129,7 @@ pub struct Diagram<const D: usize = 3> {
     pub facets: Csr,
     /// For each facet the point on the other side; [`NONE`](crate::NONE) where the cell was
     /// clipped.
-    pub neighbors: Vec<i32>,
+    pub neighbors: Vec<u32>,
     /// The area of each facet, its length in 2D; infinite for unbounded facets.
     pub areas: Vec<f64>,
     /// Where the facets of each point's cell start, and one more entry that says where the last
@@ -341,12 +341,12 @@ where
             let mut index = cell.simplices.clone();
             for (index, vertex) in index.iter_mut().zip(&cell.vertices) {
                 if *index == NONE {
-                    *index = diagram.vertices.len() as i32;
+                    *index = diagram.vertices.len() as u32;
                     diagram.vertices.push(*vertex);
                 }
             }
             for f in 0..cell.facets.len() as u32 {
-                diagram.facets.push(cell.facets.of(f).iter().map(|&v| index[v as usize] as u32));
+                diagram.facets.push(cell.facets.of(f).iter().map(|&v| index[v as usize]));
             }
             diagram.neighbors.extend(&cell.neighbors);
             diagram.areas.extend(&cell.areas);
@@ -373,7 +373,7 @@ where
         let mut moment = self.find_facets(i, star, rows, relative, cell, scratch);
         if self.is_whole(i, vertices) {
             cell.vertices.extend_from_slice(vertices);
-            cell.simplices.extend(star.iter().map(|&t| t as i32));
+            cell.simplices.extend(star);
             cell.is_bounded = !self.on_hull[i as usize];
         } else {
             moment = self.clip_cell(i, cell, polytope);
@@ -423,7 +423,7 @@ where
             let is_facet = measures.area > tiny * ring.len() as f64
                 || self.is_facet(star, relative, error, ring, is_closed, [v, a]);
             if is_facet {
-                neighbors.push(a as i32);
+                neighbors.push(a);
                 areas.push(if is_closed { measures.area } else { f64::INFINITY });
                 *volume += measures.volume;
                 moment = vector::plus(moment, measures.moment);
@@ -503,8 +503,8 @@ where
         };
         // Relative to the site.
         polytope.reset(bounds.map(|corner| vector::minus(corner, site)), NONE);
-        let bisector = |&neighbor: &i32| {
-            let to = vector::minus(complex.point(neighbor as u32), site);
+        let bisector = |&neighbor: &u32| {
+            let to = vector::minus(complex.point(neighbor), site);
             (0.5 * vector::squared_norm(to), to, neighbor)
         };
         let mut bisectors: Vec<_> = cell.neighbors.iter().map(bisector).collect();

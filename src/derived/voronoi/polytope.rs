@@ -9,18 +9,18 @@ use crate::geometry::vector;
 /// A convex polygon or polyhedron.
 pub trait Polytope<const D: usize>: Default + Send {
     /// Makes it a box. Its sides have the name `side`.
-    fn reset(&mut self, bounds: [[f64; D]; 2], side: i32);
+    fn reset(&mut self, bounds: [[f64; D]; 2], side: u32);
 
     /// Keeps what is on the side x·normal ≤ offset of a line or plane, which becomes a facet of
     /// this name.
-    fn clip(&mut self, normal: [f64; D], offset: f64, name: i32);
+    fn clip(&mut self, normal: [f64; D], offset: f64, name: u32);
 
     /// Returns the vertices.
     fn vertices(&self) -> &[[f64; D]];
 
     /// Calls `visit` with the vertices and the name of every facet: both ends in 2D,
     /// counter-clockwise; the corners in 3D, counter-clockwise as seen from outside.
-    fn for_facets(&self, visit: impl FnMut(&[u32], i32));
+    fn for_facets(&self, visit: impl FnMut(&[u32], u32));
 }
 
 /// Where the edge from p to q, of which p remains, meets the line or plane: `s` and `t` are their
@@ -36,8 +36,8 @@ fn cut<const D: usize>(p: [f64; D], q: [f64; D], s: f64, t: f64) -> [f64; D] {
 pub struct Polygon<const D: usize> {
     vertices: Vec<[f64; D]>,
     /// The name of the edge from each vertex to the next.
-    names: Vec<i32>,
-    halved: (Vec<[f64; D]>, Vec<i32>),
+    names: Vec<u32>,
+    halved: (Vec<[f64; D]>, Vec<u32>),
 }
 
 impl<const D: usize> Default for Polygon<D> {
@@ -48,7 +48,7 @@ impl<const D: usize> Default for Polygon<D> {
 
 impl<const D: usize> Polygon<D> {
     /// Makes it the polygon with these vertices. Its edges have the name `side`.
-    pub(super) fn start(&mut self, vertices: &[[f64; D]], side: i32) {
+    pub(super) fn start(&mut self, vertices: &[[f64; D]], side: u32) {
         self.vertices.clear();
         self.vertices.extend(vertices);
         self.names.clear();
@@ -57,7 +57,7 @@ impl<const D: usize> Polygon<D> {
 
     /// Keeps what is on the side x·normal ≤ offset of a line or plane. The edge on it has this
     /// name.
-    pub(super) fn halve(&mut self, normal: [f64; D], offset: f64, name: i32) {
+    pub(super) fn halve(&mut self, normal: [f64; D], offset: f64, name: u32) {
         let value = |p: [f64; D]| vector::dot(p, normal) - offset;
         let (vertices, names) = &mut self.halved;
         vertices.clear();
@@ -91,17 +91,17 @@ impl<const D: usize> Polygon<D> {
     }
 
     /// Returns the names of the edges.
-    pub(super) fn names(&self) -> impl Iterator<Item = i32> {
+    pub(super) fn names(&self) -> impl Iterator<Item = u32> {
         self.names.iter().copied()
     }
 }
 
 impl Polytope<2> for Polygon<2> {
-    fn reset(&mut self, [[x0, y0], [x1, y1]]: [[f64; 2]; 2], side: i32) {
+    fn reset(&mut self, [[x0, y0], [x1, y1]]: [[f64; 2]; 2], side: u32) {
         self.start(&[[x0, y0], [x1, y0], [x1, y1], [x0, y1]], side);
     }
 
-    fn clip(&mut self, normal: [f64; 2], offset: f64, name: i32) {
+    fn clip(&mut self, normal: [f64; 2], offset: f64, name: u32) {
         self.halve(normal, offset, name);
     }
 
@@ -109,7 +109,7 @@ impl Polytope<2> for Polygon<2> {
         &self.vertices
     }
 
-    fn for_facets(&self, mut visit: impl FnMut(&[u32], i32)) {
+    fn for_facets(&self, mut visit: impl FnMut(&[u32], u32)) {
         let count = self.vertices.len() as u32;
         for (i, &name) in (0..).zip(&self.names) {
             visit(&[i, (i + 1) % count], name);
@@ -129,7 +129,7 @@ pub struct Polyhedron {
     /// The vertices at the other ends of the edges of each vertex.
     across: Vec<[u32; 3]>,
     /// The names of the faces.
-    names: Vec<i32>,
+    names: Vec<u32>,
     /// The value x·normal − offset of each vertex.
     values: Vec<f64>,
     /// The vertices that a plane cuts off, in ascending order.
@@ -156,7 +156,7 @@ impl Polyhedron {
 }
 
 impl Polytope<3> for Polyhedron {
-    fn reset(&mut self, bounds: [[f64; 3]; 2], side: i32) {
+    fn reset(&mut self, bounds: [[f64; 3]; 2], side: u32) {
         self.vertices.clear();
         self.faces.clear();
         self.across.clear();
@@ -173,7 +173,7 @@ impl Polytope<3> for Polyhedron {
         self.names.resize(6, side);
     }
 
-    fn clip(&mut self, normal: [f64; 3], offset: f64, name: i32) {
+    fn clip(&mut self, normal: [f64; 3], offset: f64, name: u32) {
         self.values.clear();
         self.values.extend(self.vertices.iter().map(|&p| vector::dot(p, normal) - offset));
         if self.values.iter().all(|&value| value <= 0.0) {
@@ -238,7 +238,7 @@ impl Polytope<3> for Polyhedron {
         &self.vertices
     }
 
-    fn for_facets(&self, mut visit: impl FnMut(&[u32], i32)) {
+    fn for_facets(&self, mut visit: impl FnMut(&[u32], u32)) {
         let mut is_visited = vec![[false; 3]; self.vertices.len()];
         let mut corners = Vec::new();
         for v in 0..self.vertices.len() as u32 {
@@ -262,6 +262,7 @@ impl Polytope<3> for Polyhedron {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::index::NONE;
     use proptest::prelude::*;
 
     fn volume(polyhedron: &Polyhedron) -> f64 {
@@ -304,8 +305,8 @@ mod tests {
         #[test]
         fn both_sides_of_planes_add_up(planes in prop::collection::vec((prop::array::uniform3(-3i32..4), -3i32..4), 1..12), scale in 0.1f64..3.0) {
             let (mut space, mut plane) = (Polyhedron::default(), Polygon::default());
-            space.reset([[-1.0; 3], [1.0; 3]], -1);
-            plane.reset([[-1.0; 2], [1.0; 2]], -1);
+            space.reset([[-1.0; 3], [1.0; 3]], NONE);
+            plane.reset([[-1.0; 2], [1.0; 2]], NONE);
             let clipped = |space: &Polyhedron, normal: [f64; 3], offset: f64| {
                 let mut copy = space.clone();
                 copy.clip(normal, offset, 7);

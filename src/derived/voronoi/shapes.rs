@@ -23,7 +23,7 @@ pub struct FacetMeasures<const D: usize> {
 }
 
 /// The vertices of a simplex and its neighbours.
-pub type Row<const N: usize> = ([u32; N], [i32; N]);
+pub type Row<const N: usize> = ([u32; N], [u32; N]);
 
 /// What differs between the dimensions in Voronoi cells.
 #[doc(hidden)]
@@ -83,7 +83,7 @@ impl VoronoiShapes<2, 3> for Euclidean {
             let (_, across) = corner(place, after);
             // A star is in ascending order. Only a broken mesh has other triangles around the
             // vertex.
-            star.binary_search(&(across as u32)).ok().map(|place| place as u32)
+            star.binary_search(&across).ok().map(|place| place as u32)
         };
         let vertex = |place: u32, after: usize| corner(place, after).0;
         let mut first = 0;
@@ -139,7 +139,7 @@ pub struct Star {
     /// The other vertices *a*, *b*, *c* of each tetrahedron, so that (v, a, b, c) is positive.
     corners: Vec<[u32; 3]>,
     /// The tetrahedra across the facets opposite them.
-    across: Vec<[i32; 3]>,
+    across: Vec<[u32; 3]>,
     /// For each corner that of the next tetrahedron counter-clockwise around the edge to it; or
     /// [`OUTSIDE`], or [`VISITED`]. Those with *k* = 3 are none.
     next: Vec<[u32; 4]>,
@@ -151,7 +151,7 @@ pub struct Star {
 /// No corner any more.
 const VISITED: u32 = u32::MAX - 1;
 /// No place in the star, or corner of it: outside the hull.
-const OUTSIDE: u32 = u32::MAX;
+const OUTSIDE: u32 = NONE;
 
 impl Star {
     /// Fills in the star of vertex *v*. Returns whether anything is outside.
@@ -180,7 +180,7 @@ impl Star {
             for (k, &a) in corners_here.iter().enumerate() {
                 // Of a positive tetrahedron (v, a, b, c), the next one counter-clockwise is across
                 // (v, a, c).
-                let t = across[(k + 1) % 3] as u32;
+                let t = across[(k + 1) % 3];
                 let mut place = table[slot(t)];
                 if star.get(place as usize) != Some(&t) {
                     // A star is in ascending order.

@@ -7,7 +7,7 @@ use crate::{
         Gpu, Pending, Profiler, Recorder, Room, Rooms,
         dim::{Corners, Dim},
         host::{Fit, Host},
-        layout::{COUNTER_WORDS, Counters, NONE, PARAM_WORDS},
+        layout::{COUNTER_WORDS, Counters, PARAM_WORDS},
         phase1::{
             begin::Begin,
             finish::{Aliases, Copied, Copies, Finish},
@@ -21,6 +21,7 @@ use crate::{
         points::PointBuffers,
         primitives::scan::GROUPS,
     },
+    index::NONE,
     parallel::{self, Threads},
     stats::Stopwatch,
 };

@@ -4,7 +4,7 @@ use crate::predicates::filter::{
     EPSILON, ERROR_BOUNDS, ExactStage, PredicateContext3, PredicatesAt, UNDERFLOW, greatest, minus,
 };
 use crate::{
-    index::NO_INDEX,
+    index::NONE,
     predicates::{Sign, exact, integer, symbolic},
 };
 use std::cell::Cell;
@@ -61,8 +61,8 @@ impl Rows {
     /// Creates the list without a row.
     pub(crate) fn new() -> Self {
         Rows {
-            middle: Cell::new((NO_INDEX, [0.0; 3])),
-            keys: [const { Cell::new([NO_INDEX; 2]) }; PLACES],
+            middle: Cell::new((NONE, [0.0; 3])),
+            keys: [const { Cell::new([NONE; 2]) }; PLACES],
             rows: [const { Cell::new([0.0; 4]) }; PLACES],
         }
     }

@@ -8,13 +8,13 @@ use gdel::{
         triangulator::MIN_POINTS_2D,
     },
 };
-use js_sys::{Function, Int32Array};
+use js_sys::Function;
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
 use crate::{
     arrays::d2::mesh2,
     host::{JsCarrier, for_device, left_to_cpu},
-    objects::{Thrown, set},
+    objects::{Thrown, set, signed},
     points::Coordinates,
     resident,
     triangulator::WasmTriangulator,
@@ -60,7 +60,7 @@ impl WasmTriangulator {
         dimension: u8,
     ) -> Result<JsValue, Thrown> {
         let mut info = Mesh2::default();
-        (info.duplicate_of, info.dimension) = (duplicate_of, dimension);
+        (info.duplicate_of, info.dimension) = (bytemuck::cast_vec(duplicate_of), dimension);
         let mesh = self.triangulator.room2d([triangles, hull], info).await?;
         Ok(resident::hand_over(mesh, |mesh| WasmMesh2(mesh).into()))
     }
@@ -93,7 +93,7 @@ async fn run(
     let triangulator = triangulator.winding(Winding::Clockwise);
     let deliver = async |mesh: Made<2>| match (mesh, &memory) {
         (Made::Host(mesh), _) => {
-            let vertex_simplex = vertex_simplex.then(|| Int32Array::new_from_slice(&mesh.vertex_triangle()));
+            let vertex_simplex = vertex_simplex.then(|| signed(&mesh.vertex_triangle()));
             let result = mesh2(mesh, true);
             if let Some(array) = vertex_simplex {
                 set(&result, "vertexSimplex", array);
@@ -103,7 +103,7 @@ async fn run(
         (Made::Device(mesh), Some(memory)) => {
             let arrays = [(0, "triangles"), (1, "halfedges"), (2, "hull")];
             let (result, _) = resident::read(&mesh, &arrays, memory).await?;
-            set(&result, "duplicateOf", Int32Array::new_from_slice(mesh.duplicate_of()));
+            set(&result, "duplicateOf", signed(mesh.duplicate_of()));
             Ok(result)
         }
         (Made::Device(mesh), None) => Ok(resident::hand_over(*mesh, |mesh| WasmMesh2(mesh).into())),

@@ -66,7 +66,7 @@ impl WasmTriangulator {
         dimension: u8,
     ) -> Result<JsValue, Thrown> {
         let mut info = Mesh3::default();
-        (info.duplicate_of, info.dimension) = (duplicate_of, dimension);
+        (info.duplicate_of, info.dimension) = (bytemuck::cast_vec(duplicate_of), dimension);
         let mesh = self.triangulator.room3d([tetrahedra, 3 * hull], info).await?;
         Ok(resident::hand_over(mesh, |mesh| WasmMesh3(mesh).into()))
     }

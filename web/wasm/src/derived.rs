@@ -15,7 +15,7 @@ use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
 use crate::{
     mesh::{CallerMesh, points_of_mesh},
-    objects::{Thrown, error, object, set},
+    objects::{Thrown, error, object, set, signed},
     points::{Coordinates, room, zeros},
 };
 
@@ -53,7 +53,7 @@ trait OfCaller<const D: usize, const N: usize>: Mesh<D, N> + Sized {
     fn vertex_neighbors(&self) -> Csr;
 
     /// Returns a simplex of each vertex.
-    fn vertex_simplex(&self) -> Vec<i32>;
+    fn vertex_simplex(&self) -> Vec<u32>;
 
     /// Returns the centres and the radii of the circumspheres, the volumes, the ratios of the radii
     /// and the angles.
@@ -93,7 +93,7 @@ impl OfCaller<3, 4> for Mesh3 {
         self.vertex_neighbors()
     }
 
-    fn vertex_simplex(&self) -> Vec<i32> {
+    fn vertex_simplex(&self) -> Vec<u32> {
         self.vertex_tetrahedron()
     }
 
@@ -132,7 +132,7 @@ impl OfCaller<2, 3> for Mesh2 {
         self.vertex_neighbors()
     }
 
-    fn vertex_simplex(&self) -> Vec<i32> {
+    fn vertex_simplex(&self) -> Vec<u32> {
         self.vertex_triangle()
     }
 
@@ -420,7 +420,7 @@ where
         ("vertices", coordinates(diagram.vertices)),
         ("facetOffsets", offsets(&diagram.facets.offsets)),
         ("facets", Uint32Array::new_from_slice(&diagram.facets.indices).into()),
-        ("neighbors", Int32Array::new_from_slice(&diagram.neighbors).into()),
+        ("neighbors", signed(&diagram.neighbors).into()),
         ("areas", Float64Array::new_from_slice(&diagram.areas).into()),
         ("cells", offsets(&diagram.cells)),
         ("volumes", Float64Array::new_from_slice(&diagram.volumes).into()),
@@ -471,7 +471,7 @@ where
         ("solid", Uint32Array::new_from_slice(&solid).into()),
         ("surface", Uint32Array::new_from_slice(surface.as_flattened()).into()),
         ("components", count.into()),
-        ("componentOf", Int32Array::new_from_slice(&labels).into()),
+        ("componentOf", signed(&labels).into()),
         ("radii", Float64Array::new_from_slice(&radii).into()),
         ("criticalValues", Float64Array::new_from_slice(&critical).into()),
     ]))
@@ -528,7 +528,7 @@ where
         ("facets", Uint32Array::new_from_slice(facets.as_flattened()).into()),
         ("neighborOffsets", offsets(&neighbors.offsets)),
         ("neighbors", Uint32Array::new_from_slice(&neighbors.indices).into()),
-        ("simplexOf", Int32Array::new_from_slice(&task.mesh.vertex_simplex()).into()),
+        ("simplexOf", signed(&task.mesh.vertex_simplex()).into()),
     ]))
 }
 

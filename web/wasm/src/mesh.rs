@@ -22,9 +22,9 @@ use crate::{
 )]
 pub(crate) struct CallerMesh<const N: usize, const H: usize> {
     pub(crate) simplices: Vec<[u32; N]>,
-    pub(crate) neighbors: Option<Vec<[i32; N]>>,
+    pub(crate) neighbors: Option<Vec<[u32; N]>>,
     pub(crate) hull: Option<Vec<[u32; H]>>,
-    pub(crate) duplicate_of: Option<Vec<i32>>,
+    pub(crate) duplicate_of: Option<Vec<u32>>,
     pub(crate) dimension: Option<u8>,
 }
 
@@ -36,15 +36,17 @@ impl<const N: usize, const H: usize> CallerMesh<N, H> {
         Ok(CallerMesh {
             simplices: rows(simplices, all.length(), |to| all.copy_to(to))?,
             neighbors: property::<Int32Array>(mesh, neighbors)?
-                .map(|array| rows(neighbors, array.length(), |to| array.copy_to(to)))
+                .map(|array| {
+                    rows(neighbors, array.length(), |to| array.copy_to(bytemuck::cast_slice_mut::<u32, _>(to)))
+                })
                 .transpose()?,
             hull: property::<Uint32Array>(mesh, "hull")?
                 .map(|array| rows("hull", array.length(), |to| array.copy_to(to)))
                 .transpose()?,
             duplicate_of: property::<Int32Array>(mesh, "duplicateOf")?
                 .map(|array| {
-                    let mut values = zeros(array.length())?;
-                    array.copy_to(&mut values);
+                    let mut values: Vec<u32> = zeros(array.length())?;
+                    array.copy_to(bytemuck::cast_slice_mut(&mut values));
                     Ok::<_, Thrown>(values)
                 })
                 .transpose()?,

@@ -1,6 +1,6 @@
 //! JavaScript objects from Rust values.
 
-use js_sys::{Object, Reflect};
+use js_sys::{Int32Array, Object, Reflect};
 use wasm_bindgen::JsValue;
 
 use gdel::Error;
@@ -17,6 +17,11 @@ pub(crate) fn object<const N: usize>(entries: [(&str, JsValue); N]) -> JsValue {
         set(&object, key, value);
     }
     object
+}
+
+/// Copies indices into a signed array, where [`NONE`](gdel::NONE) is −1.
+pub(crate) fn signed(indices: &[u32]) -> Int32Array {
+    Int32Array::new_from_slice(bytemuck::cast_slice(indices))
 }
 
 /// Creates an `Error` with a `code`.

@@ -5,7 +5,7 @@ use js_sys::{Array, Function, Int32Array, Uint8Array, Uint32Array};
 use wasm_bindgen::{JsCast, JsValue};
 
 use crate::{
-    objects::{Thrown, object, set},
+    objects::{Thrown, object, set, signed},
     run::statistics,
 };
 
@@ -17,7 +17,7 @@ pub(crate) fn hand_over<const D: usize>(mesh: DeviceMesh<D>, wrap: impl FnOnce(D
     let stats = statistics(mesh.stats());
     let resident = object([
         ("dimension", mesh.dimension().into()),
-        ("duplicateOf", Int32Array::new_from_slice(mesh.duplicate_of()).into()),
+        ("duplicateOf", signed(mesh.duplicate_of()).into()),
         ("buffers", buffers.into()),
         ("counts", counts.into()),
         ("mesh", wrap(mesh)),

@@ -1,14 +1,14 @@
 //! Broken files: each a clear error that says where, and nothing allocated on a header's word.
 
 use crate::samples::{self, POINTS};
-use gdel::Mesh3;
+use gdel::{Mesh3, NONE};
 use gdel_io::{FormatError, MeshData3, PointCloud, PointFormat, Position};
 
 fn read_ele(bytes: &[u8]) -> Result<Vec<[u32; 4]>, FormatError> {
     gdel_io::read_ele::<Mesh3, _, _>(bytes)
 }
 
-fn read_neigh(bytes: &[u8]) -> Result<Vec<[i32; 4]>, FormatError> {
+fn read_neigh(bytes: &[u8]) -> Result<Vec<[u32; 4]>, FormatError> {
     gdel_io::read_neigh::<Mesh3, _, _>(bytes)
 }
 
@@ -540,7 +540,7 @@ fn neighbours_below_minus_one() {
     check(read_neigh(b"1 4\n0 -1 -2 -1 -1\n"), Position::Line(2), "-2 is out of range");
     check(read_neigh(b"1 4\n0 -1 -1 -1 -9223372036854775808\n"), Position::Line(2), "out of range");
     check(read_neigh(b"1 4\n1 -1 0 -1 -1\n"), Position::Line(2), "0 is out of range");
-    assert_eq!(read_neigh(b"1 4\n1 -1 1 -1 -1\n"), Ok(vec![[-1, 0, -1, -1]]));
+    assert_eq!(read_neigh(b"1 4\n1 -1 1 -1 -1\n"), Ok(vec![[NONE, 0, NONE, NONE]]));
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Every format of meshes and hulls.
 
 use crate::samples::{self, POINTS, mesh};
-use gdel::{Mesh2, Mesh3, Points};
+use gdel::{Mesh2, Mesh3, NONE, Points};
 use gdel_io::{
     MeshData2, MeshData3, PointBuf, PointFormat, SurfaceFormat, read_ele, read_neigh, read_npz, read_vtu, write_ele,
     write_neigh, write_node, write_npz, write_vtu,
@@ -37,11 +37,11 @@ fn tetgen_files_that_count_from_one() {
     );
     assert_eq!(
         read_neigh::<Mesh3, _, _>(b"2 4\n1 2 -1 -1 -1\n2 -1 -1 -1 1\n"),
-        Ok(vec![[1, -1, -1, -1], [-1, -1, -1, 0]])
+        Ok(vec![[1, NONE, NONE, NONE], [NONE, NONE, NONE, 0]])
     );
 }
 
-fn data(simplices: Vec<[u32; 4]>, neighbors: Option<Vec<[i32; 4]>>, points: PointBuf) -> MeshData3 {
+fn data(simplices: Vec<[u32; 4]>, neighbors: Option<Vec<[u32; 4]>>, points: PointBuf) -> MeshData3 {
     let mut data = MeshData3::default();
     (data.simplices, data.neighbors, data.points) = (simplices, neighbors, Some(points));
     data
@@ -87,7 +87,7 @@ fn files_of_2d_meshes_are_read_back() {
     assert!(gdel::verify2d(&points, &stated).unwrap().passed());
     for (t, k) in [(0, 0), (1, 2)] {
         let mut broken = stated.clone();
-        broken.neighbors.as_mut().unwrap()[t][k] += 1;
+        broken.neighbors.as_mut().unwrap()[t][k] ^= 1;
         let report = gdel::verify2d(&points, &broken).unwrap();
         assert_eq!(report.failures().map(|(check, ..)| check.name()).collect::<Vec<_>>(), ["neighbors"]);
     }
@@ -117,7 +117,9 @@ fn npz_is_read_back_and_holds_what_numpy_expects() {
     assert_eq!(points.shape(), [5, 3]);
     assert_eq!(points.into_vec::<f32>().unwrap(), POINTS.as_flattened());
     assert_eq!(member("tetrahedra.npy").into_vec::<u32>().unwrap(), mesh.tetrahedra.as_flattened());
-    assert_eq!(member("neighbors.npy").into_vec::<i32>().unwrap(), mesh.neighbors.as_flattened());
+    let signed: Vec<i32> = mesh.neighbors.as_flattened().iter().map(|&t| t as i32).collect();
+    assert_eq!(member("neighbors.npy").into_vec::<i32>().unwrap(), signed);
+    assert!(signed.contains(&-1), "outside the hull");
 }
 
 #[test]

@@ -1,7 +1,10 @@
 //! Carrying out an edge flip (§5.6).
 
 use gdel::internals::d2::gpu::layout::EdgeFlip;
-use gdel::internals::gpu::layout::{Active, DONE, FACET_SHIFT, KIND_SHIFT, NONE};
+use gdel::{
+    NONE,
+    internals::gpu::layout::{Active, DONE, FACET_SHIFT, KIND_SHIFT},
+};
 
 use crate::State;
 use crate::state::{replaced, slot};

@@ -1,7 +1,7 @@
 //! The answer: triangles without gaps, in input indices.
 
+use gdel::NONE;
 use gdel::internals::d2::gpu::finish::Mesh;
-use gdel::internals::index::NONE;
 
 use crate::State;
 use crate::d2::predicates;
@@ -34,7 +34,7 @@ pub fn mesh_compact(state: &State<2>, numbers: &[u32]) -> Mesh {
         mesh.halfedges.push([0, 1, 2].map(|k| {
             let (u, edge) = state.across(t, edge_of_halfedge[k]);
             if is_kept(u) {
-                return (3 * numbers[u as usize]) as i32 + halfedge_of_edge[edge];
+                return 3 * numbers[u as usize] + halfedge_of_edge[edge];
             }
             mesh.hull.push([triangle[k], triangle[(k + 1) % 3]]);
             NONE

@@ -1,9 +1,12 @@
 //! Carrying out a flip of two tetrahedra into three or of three into two.
 
 use gdel::internals::d3::mesh::FACETS;
-use gdel::internals::gpu::layout::{
-    ALL_FREE, BLOCK, DONE, DONE_23, EDGE_SHIFT, FACET_SHIFT, FLIP_23, FLIP_32, FlipNode, KIND_SHIFT, NONE, SLOT_SHIFT,
-    SLOTS_FULL,
+use gdel::{
+    NONE,
+    internals::gpu::layout::{
+        ALL_FREE, BLOCK, DONE, DONE_23, EDGE_SHIFT, FACET_SHIFT, FLIP_23, FLIP_32, FlipNode, KIND_SHIFT, SLOT_SHIFT,
+        SLOTS_FULL,
+    },
 };
 
 use crate::State;

@@ -22,7 +22,7 @@ pub fn outputs_write(tetrahedra: &[[u32; 4]], neighbors: &[[u32; 4]], numbers: &
             mesh.tetrahedra.push(tet);
             mesh.neighbors.push(near.map(|facet| {
                 let u = (facet >> 2) as usize;
-                if is_finite(tetrahedra[u], infinite) { numbers[u] as i32 } else { NONE }
+                if is_finite(tetrahedra[u], infinite) { numbers[u] } else { NONE }
             }));
         }
     }

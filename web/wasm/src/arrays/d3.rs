@@ -4,11 +4,11 @@ use gdel::{
     Mesh3,
     stats::{Stats, Trace},
 };
-use js_sys::{Array, Int32Array, Uint8Array, Uint32Array};
+use js_sys::{Array, Uint8Array, Uint32Array};
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
 use crate::{
-    objects::{object, set},
+    objects::{object, set, signed},
     run::statistics,
 };
 
@@ -35,7 +35,7 @@ impl Outputs {
 /// Copies a mesh. Each array is freed as soon as it is copied: a mesh is large, and WebAssembly's
 /// memory never shrinks.
 pub(crate) fn mesh3(mesh: Mesh3, outputs: Outputs) -> JsValue {
-    let vertex_simplex = outputs.vertex_simplex.then(|| Int32Array::new_from_slice(&mesh.vertex_tetrahedron()));
+    let vertex_simplex = outputs.vertex_simplex.then(|| signed(&mesh.vertex_tetrahedron()));
     let Mesh3 { tetrahedra, neighbors, hull, duplicate_of, dimension, stats, .. } = mesh;
     let result = object([("dimension", dimension.into()), ("stats", statistics(&stats))]);
     if let Some(array) = vertex_simplex {
@@ -44,7 +44,7 @@ pub(crate) fn mesh3(mesh: Mesh3, outputs: Outputs) -> JsValue {
     set(&result, "tetrahedra", Uint32Array::new_from_slice(tetrahedra.as_flattened()));
     drop(tetrahedra);
     if outputs.neighbors {
-        set(&result, "neighbors", Int32Array::new_from_slice(neighbors.as_flattened()));
+        set(&result, "neighbors", signed(neighbors.as_flattened()));
     }
     drop(neighbors);
     if outputs.hull {
@@ -55,12 +55,12 @@ pub(crate) fn mesh3(mesh: Mesh3, outputs: Outputs) -> JsValue {
 }
 
 /// Adds what the host has of every mesh.
-pub(crate) fn set_extras(result: &JsValue, stats: &Stats, duplicate_of: &[i32], outputs: Outputs) {
+pub(crate) fn set_extras(result: &JsValue, stats: &Stats, duplicate_of: &[u32], outputs: Outputs) {
     if let Some(trace) = &stats.trace {
         set(result, "trace", self::trace(trace));
     }
     if outputs.duplicate_of {
-        set(result, "duplicateOf", Int32Array::new_from_slice(duplicate_of));
+        set(result, "duplicateOf", signed(duplicate_of));
     }
 }
 

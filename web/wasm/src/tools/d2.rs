@@ -35,7 +35,7 @@ pub fn write2d(points: &JsValue, mesh: &JsValue, format: &str) -> Result<JsValue
     for [_, b, c] in &mut mesh.triangles {
         std::mem::swap(b, c);
     }
-    let reversed = |halfedge: i32| if halfedge == NONE { NONE } else { halfedge / 3 * 3 + 2 - halfedge % 3 };
+    let reversed = |halfedge: u32| if halfedge == NONE { NONE } else { halfedge / 3 * 3 + 2 - halfedge % 3 };
     for halfedges in &mut mesh.halfedges {
         halfedges.reverse();
         *halfedges = halfedges.map(reversed);
