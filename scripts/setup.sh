@@ -6,7 +6,8 @@
 # and gungraun's runner; `scripts/setup.sh lints` what scripts/lint.sh runs, `lints-online` also
 # cargo-deny, which it runs with `--online`; `scripts/setup.sh web` what the npm package needs:
 # wasm-pack, wasm-bindgen and the npm packages; `scripts/setup.sh web-tests` what checks and tests
-# it on top: the browsers, Deno and the linter.
+# it on top: the browsers, Deno and the linter; `scripts/setup.sh browser-gpu` what
+# scripts/browser-gpu.sh bundles.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -18,14 +19,15 @@ fail() {
 
 what=${1:-rust}
 case $what in
-  rust | guard | lints | lints-online | web | web-tests) ;;
-  *) fail "usage: scripts/setup.sh [guard | lints | lints-online | web | web-tests]" ;;
+  rust | guard | lints | lints-online | web | web-tests | browser-gpu) ;;
+  *) fail "usage: scripts/setup.sh [guard | lints | lints-online | web | web-tests | browser-gpu]" ;;
 esac
 
 # System packages: the linker that rustc calls, and a software Vulkan driver (lavapipe) for the
 # tests of the GPU code; two browsers for those of the npm package.
 packages=(gcc libc6-dev libvulkan1 mesa-vulkan-drivers)
 [[ $what != web-tests ]] || packages+=(chromium firefox-esr)
+[[ $what != browser-gpu ]] || packages+=(chromium xvfb x11-xkb-utils xkb-data fonts-dejavu-core xz-utils libegl1 libgles2 libgl1)
 [[ $what != guard ]] || packages+=(valgrind)
 [[ $what != lints* ]] || packages+=(python3-venv)
 
@@ -160,7 +162,7 @@ case $what in
     install_biome
     [[ $what == lints ]] || install_online_lints
     ;;
-  web | web-tests)
+  web | web-tests | browser-gpu)
     install_npm_packages
     install_wasm_tools
     ;;

@@ -9,6 +9,8 @@ const TYPES = {
   '.js': 'text/javascript',
   '.mjs': 'text/javascript',
   '.wasm': 'application/wasm',
+  '.css': 'text/css',
+  '.svg': 'image/svg+xml',
 };
 
 /**
@@ -25,6 +27,7 @@ export async function serve(folders, { headers = {}, change = (_, content) => co
       response.end(content);
     };
     if (path === '/') return answer(200, '<!doctype html><title>test</title>', 'text/html');
+    if (path === '/favicon.ico') return answer(204, '', 'image/x-icon');
     const prefix = Object.keys(folders).find((prefix) => path.startsWith(prefix));
     try {
       const content = await readFile(join(folders[prefix], path.slice(prefix.length)));

@@ -3,7 +3,7 @@
 import { wasm2d, wasm3d, wasmEdit } from '#assets';
 import type { Device } from './device.js';
 import { GdelError } from './errors.js';
-import { bytesOf, type Held, isBuffer } from './held.js';
+import { bytesNow, type Held, isBuffer } from './held.js';
 import { Host, type Sending } from './host.js';
 import { memoryOf } from './memory.js';
 import {
@@ -197,7 +197,7 @@ async function prepare(
   checkFunction('point', checked.point);
   const point = checked.point as AccessorOptions<unknown>['point'] | undefined;
   if (device && isBuffer(points)) {
-    const { buffer } = await bytesOf(device, points, points.size);
+    const { buffer } = await bytesNow(device, points);
     points = new Float32Array(buffer);
     transfer = true;
   }
