@@ -89,10 +89,10 @@ fn grid_32() {
 }
 
 #[test]
-fn grid_64() {
-    let mesh = check(&grid(64), 1);
+fn grid_40() {
+    let mesh = check(&grid(40), 1);
     // 5 or 6 tetrahedra per cube.
-    assert!((5 * 63usize.pow(3)..=6 * 63usize.pow(3)).contains(&mesh.tetrahedra.len()));
+    assert!((5 * 39usize.pow(3)..=6 * 39usize.pow(3)).contains(&mesh.tetrahedra.len()));
 }
 
 #[test]
@@ -102,8 +102,8 @@ fn random_subset_of_a_512_grid() {
 
 #[test]
 fn random_points_of_a_64_grid_with_many_duplicates() {
-    let mesh = check(&clouds::grid_64_with_duplicates(100_000), 2);
-    assert!(mesh.duplicate_count() > 10_000);
+    let mesh = check(&clouds::grid_64_with_duplicates(40_000), 2);
+    assert!(mesh.duplicate_count() > 2_000);
 }
 
 #[test]

@@ -19,7 +19,7 @@ pub fn mesh2(points: &[[f64; 2]]) -> Mesh2 {
 
 /// Returns point sets of some hundred points in 3D, with names.
 pub fn inputs3() -> Vec<(&'static str, Vec<[f64; 3]>)> {
-    let mut inputs: Vec<_> = Distribution3::ALL.map(|d| (d.name(), generate3d(d, 300, 1))).into();
+    let mut inputs: Vec<_> = Distribution3::ALL.map(|d| (d.name(), generate3d(d, 120, 1))).into();
     let doubled = clouds::grid(3).iter().chain(&clouds::grid(2)).copied().collect();
     let flat = clouds::grid(3).iter().map(|&[x, y, _]| [x, y, 1.0]).collect();
     let scaled =
