@@ -9,7 +9,7 @@ pub mod edit;
 
 mod workers;
 
-pub(crate) use workers::{Run, insert_by_workers};
+pub(crate) use workers::{SharedRun, insert_by_workers};
 
 use crate::{
     backend::Backend,
@@ -89,7 +89,7 @@ pub trait Grow<const D: usize>: Insert<D> + Sized {
     ///
     /// Returns the errors of the run's reports, [`Error::TooManySimplices`] and
     /// [`Error::OutOfMemory`].
-    fn insert_by_threads(self, run: &Run<'_, D>) -> Result<(Self, Vec<u32>), Error>;
+    fn insert_by_threads(self, run: &SharedRun<'_, D>) -> Result<(Self, Vec<u32>), Error>;
 }
 
 /// Simplices among which vertices are inserted: a whole triangulation, or what a thread sees of
@@ -229,7 +229,7 @@ pub(crate) fn insert_all<const D: usize, T: Grow<D>>(
     triangulation.reserve(few as usize * T::SIMPLICES_PER_POINT)?;
     alone(&mut triangulation, &mut (first..few), first as usize)?;
     let rest = rounds.iter().map(|round| round.start.max(few)..round.end).filter(|round| !round.is_empty());
-    let run = Run { threads, vertices, rounds: rest.collect(), report: &report };
+    let run = SharedRun { threads, vertices, rounds: rest.collect(), report: &report };
     let (mut triangulation, mut left) = triangulation.insert_by_threads(&run)?;
     left.sort_unstable();
     let before = n - left.len();

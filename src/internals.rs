@@ -47,7 +47,7 @@ pub mod d3 {
             pub use crate::d3::gpu::buffers::Gathering;
         }
         pub mod outputs {
-            pub use crate::d3::gpu::outputs::{Made, OutputParams, OutputStage, SlotMesh};
+            pub use crate::d3::gpu::outputs::{MadeArrays, OutputParams, OutputStage, SlotMesh};
         }
         pub mod vertex {
             pub use crate::d3::gpu::vertex::{append_words, position};
@@ -58,7 +58,7 @@ pub mod d3 {
     }
     pub mod splay {
         pub use crate::d3::splay::{
-            Aborted, Doubts, Gathered, INCIDENT_SHIFT, KEEP, KeptRegion, NearDelaunay3, Patch, Region, Splay,
+            Aborted, Doubts, Gathered, KEEP, KeptRegion, NAMED_SHIFT, NearDelaunay3, Patch, Region, Splay,
             SplayOutcome, Stop, Terms, splay, splay_again,
         };
     }
@@ -91,7 +91,7 @@ pub mod gpu {
         pub use crate::gpu::dim::{Corners, Dim, Flip, OwnBuffers};
     }
     pub mod engine {
-        pub use crate::gpu::engine::{Complete, Destination, GpuEngine, Made, Outcome};
+        pub use crate::gpu::engine::{Complete, Destination, GpuEngine, MadeMesh, Outcome};
     }
     pub mod layout {
         pub use crate::gpu::layout::{
@@ -108,7 +108,7 @@ pub mod gpu {
     }
     pub mod phase1 {
         pub use crate::gpu::phase1::{
-            Aliases, Begin, Budget, Buffers, Finish, MemorySettings, Phase1, Phase1Output, Run, Settings, Sizes,
+            Aliases, Begin, Budget, Buffers, Finish, MemorySettings, Phase1, Phase1Output, Phase1Run, Settings, Sizes,
         };
     }
     pub mod points {
@@ -129,7 +129,7 @@ pub mod gpu {
         pub use crate::gpu::shader::{D2, D3, Shader, Shaders, with_int64};
     }
     pub mod start {
-        pub use crate::gpu::start::{Start, StartMesh, first_simplex};
+        pub use crate::gpu::start::{StartMesh, StartSimplex, first_simplex};
     }
     pub mod update {
         pub use crate::gpu::update::Limits;

@@ -8,7 +8,7 @@
 @group(0) @binding(3) var<storage, read> mesh_tetrahedra: array<vec4u>;
 @group(0) @binding(4) var<storage, read> mesh_neighbors: array<vec4u>;
 // One more than the tetrahedron of each point.
-@group(0) @binding(5) var<storage, read> tet_of: array<u32>;
+@group(0) @binding(5) var<storage, read> vertex_simplex: array<u32>;
 @group(0) @binding(6) var<storage, read_write> gathered_tetrahedra: array<vec4u>;
 @group(0) @binding(7) var<storage, read_write> gathered_neighbors: array<vec4u>;
 
@@ -23,11 +23,11 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) group
         let t = gathered_slots[i];
         let near = mesh_neighbors[t];
         let tet = mesh_tetrahedra[t];
-        var incident = 0u;
+        var named = 0u;
         for (var k = 0u; k < 4; k++) {
-            incident |= select(0u, 1u << k, tet_of[tet[k]] == t + 1);
+            named |= select(0u, 1u << k, vertex_simplex[tet[k]] == t + 1);
         }
-        gathered_slots[i] = t | (incident << INCIDENT_SHIFT);
+        gathered_slots[i] = t | (named << NAMED_SHIFT);
         gathered_tetrahedra[i] = tet;
         gathered_neighbors[i] = vec4u(renumbered(near.x), renumbered(near.y), renumbered(near.z), renumbered(near.w));
     }

@@ -8,7 +8,7 @@ struct Gathering {
 
 // Where the vertices start, in the word of a gathered slot, for which the tetrahedron is the one of the
 // vertex.
-const INCIDENT_SHIFT: u32 = 28;
+const NAMED_SHIFT: u32 = 28;
 
 // In a patch: the neighbour stays what it is.
 const KEEP: u32 = 0xffffffff;

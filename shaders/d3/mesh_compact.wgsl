@@ -11,7 +11,7 @@
 @group(0) @binding(5) var<storage, read_write> mesh_tetrahedra: array<vec4u>;
 @group(0) @binding(6) var<storage, read_write> mesh_neighbors: array<vec4u>;
 // One more than the highest tetrahedron of each point; infinity comes last.
-@group(0) @binding(7) var<storage, read_write> tet_of: array<atomic<u32>>;
+@group(0) @binding(7) var<storage, read_write> vertex_simplex: array<atomic<u32>>;
 //!include d3/exact_{width}
 
 // Returns where corner k goes when infinity goes from `place` to the end by two exchanges, which
@@ -40,8 +40,8 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) group
             let there = numbers[near[k] >> 2];
             points[moved(k, place)] = point;
             across[moved(k, place)] = (there & ~3u) | moved(near[k] & 3, there & 3);
-            if atomicLoad(&tet_of[point]) <= number {
-                atomicMax(&tet_of[point], number + 1);
+            if atomicLoad(&vertex_simplex[point]) <= number {
+                atomicMax(&vertex_simplex[point], number + 1);
             }
         }
         mesh_tetrahedra[number] = points;

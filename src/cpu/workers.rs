@@ -33,7 +33,7 @@ const INSERTIONS_PER_CLAIM: usize = 8;
 const RETRIES: usize = 3;
 
 /// The vertices that several threads insert.
-pub struct Run<'a, const D: usize> {
+pub struct SharedRun<'a, const D: usize> {
     /// The threads.
     pub(crate) threads: Threads,
     /// All vertices. Those below the first of the rounds have been inserted.
@@ -107,7 +107,7 @@ struct Rest {
 /// Returns the errors of the run's reports, [`Error::TooManySimplices`] and [`Error::OutOfMemory`].
 pub(crate) fn insert_by_workers<const D: usize, const N: usize>(
     slots: &mut SharedSlots<N>,
-    run: &Run<'_, D>,
+    run: &SharedRun<'_, D>,
 ) -> Result<Vec<u32>, Error>
 where
     for<'w> Worker<'w, N>: Insert<D>,

@@ -1,7 +1,7 @@
 //! The 2D parts of the CPU engine.
 
 use crate::{
-    cpu::{Grow, Incremental, Run, insert_by_workers},
+    cpu::{Grow, Incremental, SharedRun, insert_by_workers},
     d2::{
         Mesh2, Triangulation2,
         insert::{self, edge_of},
@@ -86,7 +86,7 @@ impl Grow<2> for Triangulation2 {
         simplices.map(|(t, &near)| [words(t.map(corner)), words(near)]).collect()
     }
 
-    fn insert_by_threads(self, run: &Run<'_, 2>) -> Result<(Self, Vec<u32>), Error> {
+    fn insert_by_threads(self, run: &SharedRun<'_, 2>) -> Result<(Self, Vec<u32>), Error> {
         let Triangulation2 { triangles, neighbors, infinite } = self;
         let room = infinite as usize * Self::SIMPLICES_PER_POINT;
         let workers = parallel::count(run.threads);

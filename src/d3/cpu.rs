@@ -1,7 +1,7 @@
 //! The 3D parts of the CPU engine.
 
 use crate::{
-    cpu::{Grow, Incremental, Run, insert_by_workers},
+    cpu::{Grow, Incremental, SharedRun, insert_by_workers},
     d3::{
         Mesh3, insert,
         mesh::FACETS,
@@ -93,7 +93,7 @@ impl Grow<3> for Triangulation3 {
         used.iter().map(|&t| [self.vertices(t).map(corner), self.neighbors[t as usize].map(across)]).collect()
     }
 
-    fn insert_by_threads(self, run: &Run<'_, 3>) -> Result<(Self, Vec<u32>), Error> {
+    fn insert_by_threads(self, run: &SharedRun<'_, 3>) -> Result<(Self, Vec<u32>), Error> {
         let is_unused = |&t: &u32| self.state(t) == state::FREE;
         let unused = (0..self.tetrahedra.len() as u32).filter(is_unused).collect();
         let Triangulation3 { tetrahedra, neighbors, infinite } = self;

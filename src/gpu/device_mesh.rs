@@ -271,7 +271,7 @@ impl<const D: usize> DeviceMesh<D> {
     }
 
     /// Counts the updates in a row that began anew, given the mesh that this one updates.
-    pub(crate) fn follows(&mut self, before: &Self) {
+    pub(crate) fn count_restarts(&mut self, before: &Self) {
         let has_begun_anew = self.stats.update.is_some_and(|update| update.restarted.is_some());
         self.begun_anew = if has_begun_anew { before.begun_anew.saturating_add(1) } else { 0 };
     }

@@ -15,7 +15,7 @@ use crate::{
         device_mesh::{DeviceMesh, MeshArrays},
         dim::{Corners, Dim},
         host::{Answer, Fit, Fitted, Here, Host, Merged, Work},
-        phase1::{Begin, Finish, Phase1, Phase1Stats, Run, Settings},
+        phase1::{Begin, Finish, Phase1, Phase1Run, Phase1Stats, Settings},
         progress,
         update::PARTED,
     },
@@ -53,7 +53,7 @@ where
     /// # Errors
     ///
     /// Returns the errors of [`Readback::read`](crate::gpu::Readback::read).
-    async fn trace_round(tracer: &mut Self::Tracer, gpu: &Gpu, run: &Run<'_, D>) -> Result<(), Error>;
+    async fn trace_round(tracer: &mut Self::Tracer, gpu: &Gpu, run: &Phase1Run<'_, D>) -> Result<(), Error>;
 
     /// Makes the mesh of what Phase 1 leaves, or says why the CPU engine has to; its statistics are
     /// set by the caller.
@@ -62,14 +62,14 @@ where
     ///
     /// Returns [`Error::Cancelled`], [`Error::OutOfMemory`], and those of the device.
     async fn complete<H: Host<D>>(
-        run: Run<'_, D>,
+        run: Phase1Run<'_, D>,
         near: Near<'_, H, D>,
         tracer: Self::Tracer,
-    ) -> Result<Result<Made<D>, Fallback>, Error>;
+    ) -> Result<Result<MadeMesh<D>, Fallback>, Error>;
 }
 
 /// A mesh where the engine has made it.
-pub enum Made<const D: usize>
+pub enum MadeMesh<const D: usize>
 where
     Dimension<D>: Incremental<D>,
 {
@@ -79,7 +79,7 @@ where
     Device(Box<DeviceMesh<D>>),
 }
 
-impl<const D: usize> Made<D>
+impl<const D: usize> MadeMesh<D>
 where
     Dimension<D>: MeshArrays<D>,
 {
@@ -90,15 +90,15 @@ where
     /// Returns the errors of [`DeviceMesh::read_vertex_simplex_async`].
     pub(crate) async fn into_host(self) -> Result<MeshOf<D>, Error> {
         match self {
-            Made::Host(mesh) => Ok(mesh),
-            Made::Device(mesh) => mesh.into_host().await,
+            MadeMesh::Host(mesh) => Ok(mesh),
+            MadeMesh::Device(mesh) => mesh.into_host().await,
         }
     }
 
     pub(crate) fn stats_mut(&mut self) -> &mut Stats {
         match self {
-            Made::Host(mesh) => mesh.stats_mut(),
-            Made::Device(mesh) => mesh.stats_mut(),
+            MadeMesh::Host(mesh) => mesh.stats_mut(),
+            MadeMesh::Device(mesh) => mesh.stats_mut(),
         }
     }
 
@@ -109,8 +109,8 @@ where
     /// Returns the errors of [`Gpu::with_error_scope`].
     pub(crate) async fn into_device(self, gpu: &Gpu) -> Result<DeviceMesh<D>, Error> {
         match self {
-            Made::Host(mesh) => DeviceMesh::upload(gpu, mesh).await,
-            Made::Device(mesh) => Ok(*mesh),
+            MadeMesh::Host(mesh) => DeviceMesh::upload(gpu, mesh).await,
+            MadeMesh::Device(mesh) => Ok(*mesh),
         }
     }
 }
@@ -194,7 +194,7 @@ where
     Dimension<D>: Incremental<D>,
 {
     /// The mesh.
-    Made(Made<D>),
+    Made(MadeMesh<D>),
     /// The CPU engine has to make the mesh; [`Stats::fallback`] says why, and the others what was done before.
     LeftToCpu(Box<Stats>),
 }
@@ -302,7 +302,7 @@ where
     /// # Errors
     ///
     /// Those of [`GpuEngine::triangulate`].
-    pub async fn triangulate_on_device(
+    pub async fn triangulate_resident(
         &mut self,
         points: Points<'_, D>,
         options: &Options,
@@ -319,7 +319,7 @@ where
     /// # Errors
     ///
     /// Those of [`GpuEngine::triangulate`], and [`Error::PointCount`].
-    pub async fn update_on_device(
+    pub async fn update_resident(
         &mut self,
         mesh: &DeviceMesh<D>,
         points: Points<'_, D>,
@@ -336,13 +336,13 @@ where
     ///
     /// # Errors
     ///
-    /// Those of [`GpuEngine::update_on_device`].
+    /// Those of [`GpuEngine::update_resident`].
     pub(crate) async fn make(
         &mut self,
         points: Points<'_, D>,
         options: &Options,
         to: Destination<'_, D>,
-    ) -> Result<Made<D>, Error> {
+    ) -> Result<MadeMesh<D>, Error> {
         let mut host = platform::any_host(Here::new(points, options, std::mem::take(&mut self.work)));
         let outcome = self.drive(&mut host, options, to).await;
         self.work = host.into_work();
@@ -352,7 +352,7 @@ where
                 let mut mesh = cpu::delaunay(points, options)?;
                 let stats = mesh.stats_mut();
                 (stats.fallback, stats.gpu, stats.update) = (before.fallback, before.gpu, before.update);
-                Ok(Made::Host(mesh))
+                Ok(MadeMesh::Host(mesh))
             }
         }
     }
@@ -361,7 +361,7 @@ where
     ///
     /// # Errors
     ///
-    /// Those of [`GpuEngine::update_on_device`], and of [`Host::ask`].
+    /// Those of [`GpuEngine::update_resident`], and of [`Host::ask`].
     pub async fn drive(
         &mut self,
         host: &mut impl Host<D>,
@@ -405,8 +405,8 @@ where
             }
             stats.update = Some(*update);
         }
-        if let (Outcome::Made(Made::Device(mesh)), Some(before)) = (&mut outcome, moved) {
-            mesh.follows(before);
+        if let (Outcome::Made(MadeMesh::Device(mesh)), Some(before)) = (&mut outcome, moved) {
+            mesh.count_restarts(before);
         }
         Ok(outcome)
     }
@@ -445,9 +445,9 @@ where
         }
         let (gpu, phase1) = self.kernels(params.width(), points).await?;
         let begin = Begin { params, first, starts_later: repaired.is_some() };
-        let mut run = Run::new(phase1, gpu, host, begin, settings, None).await?;
+        let mut run = Phase1Run::new(phase1, gpu, host, begin, settings, None).await?;
         let mut moved = match moved {
-            Some((mesh, update)) => take(&mut run, host, &begin, mesh, update).await?,
+            Some((mesh, update)) => begin_update(&mut run, host, &begin, mesh, update).await?,
             None => None,
         };
         let resident = settings.sparse || used.is_none();
@@ -477,7 +477,7 @@ where
         Ok(match Dimension::<D>::complete(run, near, tracer).await? {
             Ok(mut made) => {
                 *made.stats_mut() = stats;
-                if let Made::Device(mesh) = &mut made {
+                if let MadeMesh::Device(mesh) = &mut made {
                     mesh.set_first(first.first.as_ref());
                 }
                 Ok(Outcome::Made(made))
@@ -528,9 +528,9 @@ where
     }
 }
 
-/// Has a run go on from `mesh` if that pays. Returns what goes with it then.
-async fn take<'a, const D: usize>(
-    run: &mut Run<'_, D>,
+/// Begins a run with `mesh` in place of a first simplex, if that pays. Returns what the update needs later.
+async fn begin_update<'a, const D: usize>(
+    run: &mut Phase1Run<'_, D>,
     host: &mut impl Host<D>,
     begin: &Begin<D>,
     mesh: &DeviceMesh<D>,
@@ -546,7 +546,7 @@ where
     } else if !mesh.gpu().is_same(run.gpu()) {
         Err(Restart::NotResident)
     } else {
-        match run.take(mesh, begin.starts_later).await? {
+        match run.update(mesh, begin.starts_later).await? {
             None => Err(Restart::Broken),
             Some([inverted, changed]) => {
                 (update.inverted, update.not_locally_delaunay) = (inverted, changed);

@@ -14,7 +14,7 @@ use crate::{
         message::{Message, Packer, Unpacker, message},
         points::{InputParams, bits_of},
         progress,
-        start::{Start, StartMesh, first_simplex},
+        start::{StartMesh, StartSimplex, first_simplex},
     },
     index::NONE,
     input::{lattice::Lattice, order::missing_points, points::Points},
@@ -114,7 +114,7 @@ where
     /// The lattice, once it is fitted.
     lattice: Option<Lattice<D>>,
     /// The first simplex.
-    start: Option<Start<D>>,
+    start: Option<StartSimplex<D>>,
     work: <Dimension<D> as Work<D>>::Work,
 }
 
@@ -299,7 +299,7 @@ where
     /// What the device has to know of the points, without the size of its own table.
     pub params: InputParams,
     /// The first simplex, unless the points lie in a line (2D) or plane (3D), or nearly so.
-    pub start: Option<Start<D>>,
+    pub start: Option<StartSimplex<D>>,
 }
 
 impl<const D: usize> Request<D> for Fit
@@ -319,7 +319,7 @@ where
         let position = |i: usize| lattice.coordinates(points.get(i)).map(|c| c.value);
         let start = Some(&self.first[..])
             .filter(|first| !first.is_empty())
-            .and_then(|first| Start::of(lattice.width(), first, &position))
+            .and_then(|first| StartSimplex::of(lattice.width(), first, &position))
             .or_else(|| first_simplex(lattice.width(), points.len(), position));
         let params = InputParams::new(points, &lattice);
         (side.state.lattice, side.state.start) = (Some(lattice), start);
@@ -403,7 +403,7 @@ where
         let params = *Vec::<InputParams>::read(from)?.first()?;
         let start = if bool::read(from)? {
             let first: Vec<Corners<D>> = Message::read(from)?;
-            Some(Start { first: *first.first()?, interior_point: Message::read(from)? })
+            Some(StartSimplex { first: *first.first()?, interior_point: Message::read(from)? })
         } else {
             None
         };

@@ -18,7 +18,7 @@ use crate::predicates::filter::PredicateContext;
 
 /// The first simplex, and a point inside it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Start<const D: usize>
+pub struct StartSimplex<const D: usize>
 where
     Dimension<D>: Dim<D>,
 {
@@ -28,7 +28,7 @@ where
     pub interior_point: [i64; D],
 }
 
-impl<const D: usize> Start<D>
+impl<const D: usize> StartSimplex<D>
 where
     Dimension<D>: Dim<D>,
 {
@@ -48,7 +48,7 @@ where
         is_inside.then(|| {
             let mut first = Corners::<D>::zeroed();
             first.as_mut().copy_from_slice(vertices);
-            Start { first, interior_point }
+            StartSimplex { first, interior_point }
         })
     }
 }
@@ -65,7 +65,7 @@ pub fn first_simplex<const D: usize>(
     width: Width,
     count: usize,
     position: impl Fn(usize) -> [i64; D],
-) -> Option<Start<D>>
+) -> Option<StartSimplex<D>>
 where
     Dimension<D>: Dim<D>,
 {
@@ -79,7 +79,7 @@ fn largest<const D: usize>(
     count: usize,
     stride: usize,
     position: &dyn Fn(usize) -> [i64; D],
-) -> Option<Start<D>>
+) -> Option<StartSimplex<D>>
 where
     Dimension<D>: Dim<D>,
 {
@@ -107,7 +107,7 @@ where
         first.swap(0, 1);
     }
     let vertices: Vec<u32> = first.into_iter().map(|i| i as u32).collect();
-    Start::of(width, &vertices, position)
+    StartSimplex::of(width, &vertices, position)
 }
 
 /// The simplices that Phase 1 starts with: the Delaunay triangulation of some of the points, or of
@@ -133,7 +133,12 @@ impl StartMesh {
     /// Triangulates `wanted` of the points, evenly spaced in the input, beside the corners of the
     /// first simplex. Where that is no triangulation of their places on the lattice, to which some are
     /// rounded, or where the simplices are too many, the first simplex has to do.
-    pub fn new<const D: usize>(points: Points<'_, D>, lattice: &Lattice<D>, start: &Start<D>, wanted: usize) -> Self
+    pub fn new<const D: usize>(
+        points: Points<'_, D>,
+        lattice: &Lattice<D>,
+        start: &StartSimplex<D>,
+        wanted: usize,
+    ) -> Self
     where
         Dimension<D>: Dim<D>,
     {
@@ -141,7 +146,7 @@ impl StartMesh {
     }
 
     /// Returns the first simplex alone, with those at infinity around it.
-    pub fn of_first<const D: usize>(start: &Start<D>) -> Self
+    pub fn of_first<const D: usize>(start: &StartSimplex<D>) -> Self
     where
         Dimension<D>: Dim<D>,
     {
@@ -158,7 +163,7 @@ impl StartMesh {
     fn of_sample<const D: usize>(
         points: Points<'_, D>,
         lattice: &Lattice<D>,
-        start: &Start<D>,
+        start: &StartSimplex<D>,
         wanted: usize,
     ) -> Option<Self>
     where
@@ -196,7 +201,12 @@ impl StartMesh {
 
     /// Returns whether the simplices are positively oriented on the lattice, to which points may be
     /// rounded. Where none was rounded, flat ones are allowed: the device orients them by its perturbation.
-    fn is_on_lattice<const D: usize>(&self, points: Points<'_, D>, lattice: &Lattice<D>, start: &Start<D>) -> bool
+    fn is_on_lattice<const D: usize>(
+        &self,
+        points: Points<'_, D>,
+        lattice: &Lattice<D>,
+        start: &StartSimplex<D>,
+    ) -> bool
     where
         Dimension<D>: Dim<D>,
     {

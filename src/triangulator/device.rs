@@ -106,7 +106,7 @@ impl DeviceTriangulator {
     ///
     /// Returns the errors of [`delaunay3d`](Self::delaunay3d).
     pub async fn delaunay3d_async<'a>(&self, points: impl Into<Points3<'a>>) -> Result<DeviceMesh3, Error> {
-        self.triangulator.device.on_device(points.into(), &self.triangulator.options).await
+        self.triangulator.device.resident(points.into(), &self.triangulator.options).await
     }
 
     /// Does the same as [`delaunay2d`](Self::delaunay2d) without blocking the thread.
@@ -115,7 +115,7 @@ impl DeviceTriangulator {
     ///
     /// Returns the errors of [`delaunay3d`](Self::delaunay3d).
     pub async fn delaunay2d_async<'a>(&self, points: impl Into<Points2<'a>>) -> Result<DeviceMesh2, Error> {
-        self.triangulator.device.on_device(points.into(), &self.triangulator.options).await
+        self.triangulator.device.resident(points.into(), &self.triangulator.options).await
     }
 
     /// Does the same as [`delaunay3d_from_buffer`](Self::delaunay3d_from_buffer) without blocking the

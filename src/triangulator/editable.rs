@@ -118,7 +118,7 @@ on_host!(2, 3, Mesh2);
 
 /// Implements [`Editable`] for a mesh on a device.
 #[cfg(feature = "gpu")]
-macro_rules! on_device {
+macro_rules! resident {
     ($D:literal, $N:literal, $mesh:ident) => {
         impl Sealed for $mesh {}
 
@@ -156,7 +156,7 @@ macro_rules! on_device {
                     }
                     Some(again) => match again.used(points) {
                         None => {
-                            let mut made = triangulator.device.on_device(points, &triangulator.options).await?;
+                            let mut made = triangulator.device.resident(points, &triangulator.options).await?;
                             made.stats_mut().update = Some(UpdateStats::from_scratch(again.why));
                             made
                         }
@@ -205,6 +205,6 @@ macro_rules! on_device {
     };
 }
 #[cfg(feature = "gpu")]
-on_device!(3, 4, DeviceMesh3);
+resident!(3, 4, DeviceMesh3);
 #[cfg(feature = "gpu")]
-on_device!(2, 3, DeviceMesh2);
+resident!(2, 3, DeviceMesh2);

@@ -9,7 +9,7 @@ use crate::{
     gpu::{
         AdapterChoice, Gpu, Readback,
         device_mesh::{DeviceMesh, with_len},
-        engine::{Destination, Made},
+        engine::{Destination, MadeMesh},
     },
     input::points::Points,
     mesh::MeshInfo,
@@ -51,7 +51,7 @@ where
     fn destination(&mut self) -> Destination<'_, D>;
 
     /// Takes the mesh there from where it was made, with the GPU if it was used.
-    async fn deliver(&self, mesh: Made<D>, gpu: Option<Gpu>) -> Result<Self::Output, Error>;
+    async fn deliver(&self, mesh: MadeMesh<D>, gpu: Option<Gpu>) -> Result<Self::Output, Error>;
 }
 
 /// To the memory of the host, that of the arrays of this mesh as far as it suffices.
@@ -69,7 +69,7 @@ where
         Destination::Host(std::mem::take(&mut self.0))
     }
 
-    async fn deliver(&self, mesh: Made<D>, _gpu: Option<Gpu>) -> Result<MeshOf<D>, Error> {
+    async fn deliver(&self, mesh: MadeMesh<D>, _gpu: Option<Gpu>) -> Result<MeshOf<D>, Error> {
         mesh.into_host().await
     }
 }
@@ -91,7 +91,7 @@ where
         Destination::Device(self.moved)
     }
 
-    async fn deliver(&self, mesh: Made<D>, gpu: Option<Gpu>) -> Result<DeviceMesh<D>, Error> {
+    async fn deliver(&self, mesh: MadeMesh<D>, gpu: Option<Gpu>) -> Result<DeviceMesh<D>, Error> {
         if let Some(gpu) = gpu {
             return mesh.into_device(&gpu).await;
         }
@@ -184,7 +184,7 @@ impl SharedDevice {
     }
 
     /// Triangulates `points`, and leaves the mesh on the device.
-    pub(super) async fn on_device<const D: usize>(
+    pub(super) async fn resident<const D: usize>(
         &self,
         points: Points<'_, D>,
         options: &Options,
@@ -240,7 +240,7 @@ impl SharedDevice {
     {
         self.check()?;
         match options.backend {
-            Backend::Cpu => to.deliver(Made::Host(cpu::delaunay(points, options)?), None).await,
+            Backend::Cpu => to.deliver(MadeMesh::Host(cpu::delaunay(points, options)?), None).await,
             Backend::Gpu => {
                 let mut state = self.state.lock().await;
                 state.open::<D>(&self.adapter).await?;
@@ -254,7 +254,7 @@ impl SharedDevice {
                 };
                 let mut mesh = cpu::delaunay(points, options)?;
                 mesh.stats_mut().fallback = Some(why);
-                to.deliver(Made::Host(mesh), None).await
+                to.deliver(MadeMesh::Host(mesh), None).await
             }
         }
     }

@@ -8,7 +8,7 @@ use gdel::internals::Options;
 use gdel::internals::d2::gpu::vertex;
 use gdel::internals::gpu::host::{Fit, Here, Host};
 use gdel::internals::gpu::layout::Pick;
-use gdel::internals::gpu::phase1::{Begin, MemorySettings, Phase1, Run, Settings};
+use gdel::internals::gpu::phase1::{Begin, MemorySettings, Phase1, Phase1Run, Settings};
 use gdel::internals::gpu::{AdapterChoice, Gpu};
 use gdel::internals::input::lattice::{Lattice, Width};
 use gdel::internals::{dimension::Dimension, gpu::dim::Dim};
@@ -18,7 +18,7 @@ use pollster::block_on;
 type State = gdel_reference::State<2>;
 
 /// The buffers of a run, as the references have them.
-fn state_of(gpu: &Gpu, width: Width, run: &Run<'_, 2>) -> State {
+fn state_of(gpu: &Gpu, width: Width, run: &Phase1Run<'_, 2>) -> State {
     let (params, counters) = run.control();
     let b = run.buffers();
     let pairs = read(gpu, &b.points.pairs);
@@ -37,7 +37,7 @@ fn run_and_validate(gpu: &Gpu, kernels: &mut [Phase1<2>; 2], name: &str, points:
     let options = Options::default();
     let mut host = Here::new(points.into(), &options, Default::default());
     let begin = Begin::of(block_on(host.ask(Fit::default())).unwrap());
-    let mut run = block_on(Run::new(kernels, gpu, &mut host, begin, settings, None)).unwrap();
+    let mut run = block_on(Phase1Run::new(kernels, gpu, &mut host, begin, settings, None)).unwrap();
     let mut more = true;
     while more {
         more = block_on(run.advance()).unwrap();

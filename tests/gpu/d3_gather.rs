@@ -62,12 +62,12 @@ fn parts_are_gathered_and_written_back() {
     neighbors.write(gpu, 0, &mesh.neighbors);
     // What an earlier run left does not matter.
     region_numbers.write(gpu, 0, &vec![9; slots]);
-    let tet_of = Storage::with_contents(gpu, "tetrahedra of points", &mesh.tet_of).unwrap();
+    let vertex_simplex = Storage::with_contents(gpu, "tetrahedra of points", &mesh.vertex_simplex).unwrap();
     let run = |name: &str| {
         let buffers = [
             ("control", control.buffer()),
             ("sums", sums.buffer()),
-            ("tet_of", tet_of.buffer()),
+            ("vertex_simplex", vertex_simplex.buffer()),
             ("mesh_tetrahedra", tetrahedra.buffer()),
             ("mesh_neighbors", neighbors.buffer()),
             ("gathered_tetrahedra", gathered_tetrahedra.buffer()),

@@ -10,7 +10,7 @@ use gdel::internals::{
     gpu::{
         Storage,
         layout::{CHECK, Counters, DONE, LOGGED, Pick},
-        start::{Start, StartMesh, first_simplex},
+        start::{StartMesh, StartSimplex, first_simplex},
     },
     input::lattice::{Lattice, Width},
 };
@@ -65,7 +65,7 @@ fn check(device: &Device<3>, state: &mut State) {
 }
 
 /// Returns points, the first simplex of them, and the state before they are triangulated.
-fn begun(width: Width) -> (Vec<[i64; 3]>, Start<3>, State) {
+fn begun(width: Width) -> (Vec<[i64; 3]>, StartSimplex<3>, State) {
     let positions = shuffled(width, (0..512).map(|i| [i & 7, i >> 3 & 7, i >> 6]).collect(), 250);
     let start = first_simplex(width, positions.len(), |i| positions[i]).expect("not coplanar");
     let mut points: Vec<Vertex> =

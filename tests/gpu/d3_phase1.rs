@@ -14,7 +14,7 @@ use gdel::internals::{
         AdapterChoice, Gpu, Parts,
         host::{Fit, Here, Host},
         layout::{Counters, Pick},
-        phase1::{Begin, MemorySettings, Phase1, Phase1Output, Run, Settings},
+        phase1::{Begin, MemorySettings, Phase1, Phase1Output, Phase1Run, Settings},
     },
 };
 use gdel::internals::{dimension::Dimension, gpu::dim::Dim};
@@ -32,7 +32,7 @@ fn vertices(width: Width, words: &[i32]) -> Vec<Vertex> {
 }
 
 /// The buffers of a run, as the references have them.
-fn state_of(gpu: &Gpu, width: Width, run: &Run<'_, 3>) -> State {
+fn state_of(gpu: &Gpu, width: Width, run: &Phase1Run<'_, 3>) -> State {
     let (params, counters) = run.control();
     let b = run.buffers();
     let points = vertices(width, &read(gpu, &b.points.vertices));
@@ -46,14 +46,14 @@ fn begin<'a>(
     kernels: &'a mut [Phase1<3>; 2],
     points: &Points,
     settings: Settings<3>,
-) -> (Width, Run<'a, 3>) {
+) -> (Width, Phase1Run<'a, 3>) {
     let lattice = Lattice::fit((&points.positions).into());
     let width = lattice.width();
     let kernels = &mut kernels[usize::from(width == Width::Wide)];
     let options = Options::default();
     let mut host = Here::new((&points.positions).into(), &options, Default::default());
     let begin = Begin::of(block_on(host.ask(Fit::default())).unwrap());
-    (width, block_on(Run::new(kernels, gpu, &mut host, begin, settings, None)).unwrap())
+    (width, block_on(Phase1Run::new(kernels, gpu, &mut host, begin, settings, None)).unwrap())
 }
 
 /// Returns the counters of the run.
@@ -108,7 +108,7 @@ fn run_and_validate(gpu: &Gpu, kernels: &mut [Phase1<3>; 2], points: &Points, se
         }
     }
     let is_merged: BTreeSet<u32> = merged.iter().map(|&[p, _]| p).collect();
-    for (v, &t) in (0..).zip(&output.tet_of) {
+    for (v, &t) in (0..).zip(&output.vertex_simplex) {
         assert_eq!(t == u32::MAX, is_merged.contains(&v), "{}: point {v}", points.name);
         assert!(t == u32::MAX || output.tets[t as usize].contains(&v));
     }

@@ -11,7 +11,7 @@ use gdel::{
         dimension::Dimension,
         gpu::{
             AdapterChoice, Gpu, Storage,
-            engine::{Complete, Destination, GpuEngine, Made, Outcome},
+            engine::{Complete, Destination, GpuEngine, MadeMesh, Outcome},
             host::{Answer, Carrier, Elsewhere, Side},
         },
         input::points::Points,
@@ -138,8 +138,8 @@ where
         for to in [Destination::Host(MeshOf::<D>::default()), Destination::Device(None)] {
             let Outcome::Made(made) = self.drive(points, to) else { panic!("left to the CPU") };
             let mesh = match made {
-                Made::Host(mesh) => mesh,
-                Made::Device(mesh) => {
+                MadeMesh::Host(mesh) => mesh,
+                MadeMesh::Device(mesh) => {
                     let read = Dimension::<D>::read(&mesh);
                     resident = Some(*mesh);
                     read
@@ -157,8 +157,8 @@ where
             panic!("left to the CPU")
         };
         let (read, made) = match made {
-            Made::Host(mesh) => (mesh, None),
-            Made::Device(mesh) => (Dimension::<D>::read(&mesh), Some(*mesh)),
+            MadeMesh::Host(mesh) => (mesh, None),
+            MadeMesh::Device(mesh) => (Dimension::<D>::read(&mesh), Some(*mesh)),
         };
         assert!(Dimension::<D>::canonical(&read) == Dimension::<D>::canonical(&expected));
         made

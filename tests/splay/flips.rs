@@ -167,15 +167,15 @@ pub fn near(infinite: u32, tetrahedra: &[[u32; 4]]) -> NearDelaunay3 {
     }
     match_facets(&all, &mut neighbors, &mut open, tetrahedra.len());
     assert!(open.is_empty(), "the boundary is not closed");
-    let mut incident = vec![NONE; infinite as usize + 1];
+    let mut vertex_simplex = vec![NONE; infinite as usize + 1];
     for (slot, t) in all.iter().enumerate() {
-        t.iter().for_each(|&v| incident[v as usize] = slot as u32);
+        t.iter().for_each(|&v| vertex_simplex[v as usize] = slot as u32);
     }
-    let missing = (0..infinite).filter(|&v| incident[v as usize] == NONE).collect();
+    let missing = (0..infinite).filter(|&v| vertex_simplex[v as usize] == NONE).collect();
     let uncertain = (0..all.len() as u32).collect();
     NearDelaunay3 {
         triangulation: Triangulation3::new(all, neighbors, infinite),
-        incident,
+        vertex_simplex,
         failed: Vec::new(),
         uncertain,
         missing,

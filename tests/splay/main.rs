@@ -347,8 +347,9 @@ fn what_is_not_a_triangulation_aborts() {
     let lattice = Lattice::fit((&points).into());
     let vertices = PredicateContext::new((&points).into(), &lattice, shuffled(points.len(), 21));
     let near = spoilt(&points);
-    let no_tetrahedra = NearDelaunay3 { incident: vec![NONE; points.len() + 1], ..near.clone() };
-    let wrong_tetrahedra = NearDelaunay3 { incident: near.incident.iter().rev().copied().collect(), ..near };
+    let no_tetrahedra = NearDelaunay3 { vertex_simplex: vec![NONE; points.len() + 1], ..near.clone() };
+    let wrong_tetrahedra =
+        NearDelaunay3 { vertex_simplex: near.vertex_simplex.iter().rev().copied().collect(), ..near };
     for near in [no_tetrahedra, wrong_tetrahedra] {
         let outcome = splay(&vertices, near, Terms::unlimited(Threads::All)).unwrap();
         assert!(matches!(outcome, SplayOutcome::Aborted(Aborted::Inconsistent(_))), "{outcome:?}");

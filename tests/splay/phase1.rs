@@ -38,16 +38,16 @@ fn near(state: &reference::State<3>, vertices: &PredicateContext3<'_>) -> NearDe
         4 * number[u] + order(u)[face] as u32
     };
     let neighbors = used.iter().map(|&t| order(t).map(|k| renumbered(state.neighbors[t][k]))).collect();
-    let mut incident = vec![NONE; vertices.len() + 1];
+    let mut vertex_simplex = vec![NONE; vertices.len() + 1];
     // A ghost where there is one.
     for ghosts in [false, true] {
         let some = (0..).zip(&tetrahedra).filter(|(_, t)| (t[3] == infinite) == ghosts);
-        some.for_each(|(n, t)| t.iter().for_each(|&v| incident[v as usize] = n));
+        some.for_each(|(n, t)| t.iter().for_each(|&v| vertex_simplex[v as usize] = n));
     }
     let triangulation = Triangulation3::new(tetrahedra, neighbors, infinite);
     let uncertain = flat_or_inverted(&triangulation, vertices);
     let failed = (0..vertices.len() as u32).filter(|&v| state.own.failed[v as usize] != 0).collect();
-    NearDelaunay3 { triangulation, incident, failed, uncertain, missing: Vec::new() }
+    NearDelaunay3 { triangulation, vertex_simplex, failed, uncertain, missing: Vec::new() }
 }
 
 fn both_phases(name: &str, points: &Cloud, settings: &Settings) -> SplayStats {

@@ -25,7 +25,7 @@ pub struct Elsewhere {
 
 /// Gathers what splaying begins with, in the memory of a region, if there is one.
 pub fn elsewhere(near: NearDelaunay3, kept: Option<Region>) -> Elsewhere {
-    let NearDelaunay3 { triangulation, incident, failed, uncertain, missing } = near;
+    let NearDelaunay3 { triangulation, vertex_simplex, failed, uncertain, missing } = near;
     let infinite = triangulation.infinite();
     let mut mesh = Mesh::new(triangulation.tetrahedra().to_vec(), triangulation.neighbors().to_vec(), infinite);
     let corners = |&t: &u32| mesh.tetrahedra[t as usize];
@@ -36,7 +36,7 @@ pub fn elsewhere(near: NearDelaunay3, kept: Option<Region>) -> Elsewhere {
     region.add(wanted, gathered, Threads::All).unwrap();
     let uncertain = uncertain.iter().map(|&t| mesh.region_numbers[t as usize]).collect();
     // A vertex that is not missing: as if each were at the place of the one before it.
-    let there = (0..infinite).find(|&v| incident[v as usize] != NONE).unwrap();
+    let there = (0..infinite).find(|&v| vertex_simplex[v as usize] != NONE).unwrap();
     let missing = missing.into_iter().map(|v| [v, there]).collect();
     Elsewhere { mesh, region, doubts: Doubts { failed, uncertain, missing } }
 }

@@ -63,15 +63,15 @@ fn agree(name: &str, points: Points2<'_>) {
     assert_eq!(mesh.stats.backend, Backend::Gpu);
     same(points, &mesh);
     // The same where the device makes the arrays.
-    let resident = on_device(points);
+    let resident = resident(points);
     assert_eq!(resident.stats().fallback, None, "{name}");
     same(points, &resident.read(Outputs::ALL).expect("reads"));
 }
 
-fn on_device(points: Points2<'_>) -> DeviceMesh2 {
+fn resident(points: Points2<'_>) -> DeviceMesh2 {
     let mut engine = engine();
     engine.set_settings(Settings::default());
-    block_on(engine.triangulate_on_device(points, &Options::default())).expect("triangulates")
+    block_on(engine.triangulate_resident(points, &Options::default())).expect("triangulates")
 }
 
 fn random(n: usize, seed: u64, point: impl Fn(&mut Pcg64Mcg) -> [f64; 2]) -> Vec<[f64; 2]> {

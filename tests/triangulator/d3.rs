@@ -58,8 +58,8 @@ fn arrays_in_parts() {
 
     // A mesh that follows its points.
     let moved = motions::displaced(20_000, 0.002);
-    let mesh = block_on(engine.triangulate_on_device((&moved[0]).into(), &options)).expect("triangulates");
-    let mesh = block_on(engine.update_on_device(&mesh, (&moved[1]).into(), &options)).expect("updates");
+    let mesh = block_on(engine.triangulate_resident((&moved[0]).into(), &options)).expect("triangulates");
+    let mesh = block_on(engine.update_resident(&mesh, (&moved[1]).into(), &options)).expect("updates");
     assert_eq!(mesh.stats().update.map(|update| update.restarted), Some(None));
     same(&moved[1], &mesh.read(Outputs::ALL).expect("reads"));
 

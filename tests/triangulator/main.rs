@@ -53,7 +53,7 @@ fn agree<'a>(points: impl Into<Points3<'a>>) {
     assert_eq!(mesh.stats.backend, Backend::Gpu);
     same(points, &mesh);
     // The same where splaying sees only what it asks for, and the device makes the arrays.
-    let resident = block_on(engine().triangulate_on_device(points, &Options::default())).expect("triangulates");
+    let resident = block_on(engine().triangulate_resident(points, &Options::default())).expect("triangulates");
     assert_eq!(resident.stats().fallback, None);
     assert!(resident.stats().splay.is_some_and(|splay| splay.gathers > 0), "{:?}", resident.stats());
     same(points, &resident.read(Outputs::ALL).expect("reads"));

@@ -29,9 +29,9 @@ macro_rules! follow {
             let mut steps = steps.into_iter();
             let points = steps.next().expect("there is a step");
             let options = Options::default();
-            let mut mesh = block_on(engine.triangulate_on_device((&points).into(), &options)).expect("triangulates");
+            let mut mesh = block_on(engine.triangulate_resident((&points).into(), &options)).expect("triangulates");
             let step = |points: Vec<[f64; $D]>| {
-                mesh = block_on(engine.update_on_device(&mesh, (&points).into(), &options)).expect("updates");
+                mesh = block_on(engine.update_resident(&mesh, (&points).into(), &options)).expect("updates");
                 let update = mesh.stats().update.expect("the mesh was updated");
                 println!("{update:?}");
                 $same($points::from(&points), &mesh.read(Outputs::ALL).expect("reads"));
@@ -190,7 +190,7 @@ macro_rules! begins_anew_until_steps_are_short {
 begins_anew_until_steps_are_short!(begins_anew_until_steps_are_short3, 3, delaunay3d, Points3, same);
 begins_anew_until_steps_are_short!(begins_anew_until_steps_are_short2, 2, delaunay2d, Points2, crate::d2::same);
 
-fn on_device(points: &[[f64; 3]]) -> (Triangulator, DeviceMesh3) {
+fn resident(points: &[[f64; 3]]) -> (Triangulator, DeviceMesh3) {
     let triangulator = Triangulator::new().backend(Backend::Gpu);
     let mesh = triangulator.device().expect("opens").delaunay3d(points).expect("triangulates");
     (triangulator, mesh)
@@ -199,7 +199,7 @@ fn on_device(points: &[[f64; 3]]) -> (Triangulator, DeviceMesh3) {
 #[test]
 fn cancellation_and_bad_input_leave_the_mesh() {
     let points = motions::uniform::<3>(500, 12);
-    let (triangulator, mut mesh) = on_device(&points);
+    let (triangulator, mut mesh) = resident(&points);
     let to = motions::jitter(&points, 0.01, 1);
     for end in 0.. {
         let reports = std::sync::atomic::AtomicUsize::new(0);
@@ -229,7 +229,7 @@ fn cancellation_and_bad_input_leave_the_mesh() {
 #[test]
 fn a_mesh_of_another_device_is_made_anew() {
     let points = motions::uniform::<3>(300, 13);
-    let (_, mut mesh) = on_device(&points);
+    let (_, mut mesh) = resident(&points);
     let other = Triangulator::new().backend(Backend::Gpu);
     let to = motions::jitter(&points, 0.01, 1);
     let mut follow = |triangulator: &Triangulator| {

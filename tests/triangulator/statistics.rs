@@ -100,7 +100,7 @@ fn every_submission_is_counted() {
 
     let mut engine = engine();
     engine.set_settings(Settings { insert_all: true, rounds: 1, batches: 1, ..Settings::default() });
-    let mesh = block_on(engine.triangulate_on_device((&points).into(), &Options::default())).expect("triangulates");
+    let mesh = block_on(engine.triangulate_resident((&points).into(), &Options::default())).expect("triangulates");
     engine.set_settings(Settings::default());
     let (gpu, splay) = (mesh.stats().gpu.clone().expect("the GPU worked"), mesh.stats().splay.expect("and splaying"));
     // One for the points, one per round, one for the end, which gathers the first stars, one for

@@ -164,9 +164,9 @@ for (const [D, triangulate, generated] of [
         Array.from(topology.neighbors.subarray(start, end)),
         [...expected].sort((a, b) => a - b),
       );
-      assert.equal(topology.simplexOf[v], stars[v][0] ?? -1);
+      assert.equal(topology.vertexSimplex[v], stars[v][0] ?? -1);
     }
-    assert.equal(topology.simplexOf[199], -1, 'a duplicate');
+    assert.equal(topology.vertexSimplex[199], -1, 'a duplicate');
   });
 
   test(`${D}D: the geometry of simplices`, async () => {

@@ -85,13 +85,13 @@ for (const [key, { triangulate, blocking, generate, verify, arrays }] of Object.
     // What was removed is nowhere.
     const queries = select(all, [7, 619]);
     assert.ok([...(await mesh.nearest(queries))].every((v) => !removed.includes(v)));
-    const { neighborOffsets, simplexOf } = await mesh.topology();
+    const { neighborOffsets, vertexSimplex } = await mesh.topology();
     const { cells } = await mesh.voronoi({ clip: 'box' });
     const tree = await mesh.spanningTree();
     const clusters = tree.clusters(1);
     for (const i of removed) {
       assert.equal(neighborOffsets[i], neighborOffsets[i + 1]);
-      assert.equal(simplexOf[i], -1);
+      assert.equal(vertexSimplex[i], -1);
       if (D === 3) assert.equal(cells[i], cells[i + 1]);
       assert.equal(clusters[i], 2 ** 32 - 1);
     }

@@ -90,7 +90,7 @@ export interface Topology {
   /** The points that each point has an edge to, ascending. */
   readonly neighbors: Indices;
   /** For each point the first simplex that has it; −1 for duplicates, and if there are no simplices. */
-  readonly simplexOf: Int32Array;
+  readonly vertexSimplex: Int32Array;
 }
 
 /** What the simplices of a mesh are like. */

@@ -21,9 +21,9 @@ use crate::{
     gpu::{
         Gpu, Recorder,
         device_mesh::DeviceMesh,
-        engine::{Complete, Made, Near},
+        engine::{Complete, MadeMesh, Near},
         host::{Host, Work},
-        phase1::{Copied, Copies, Ended, Run},
+        phase1::{Copied, Copies, Ended, Phase1Run},
         progress,
     },
     options::Options,
@@ -43,15 +43,15 @@ impl Complete<2> for Dimension<2> {
 
     fn tracer(_options: &Options) {}
 
-    async fn trace_round(_tracer: &mut (), _gpu: &Gpu, _run: &Run<'_, 2>) -> Result<(), Error> {
+    async fn trace_round(_tracer: &mut (), _gpu: &Gpu, _run: &Phase1Run<'_, 2>) -> Result<(), Error> {
         Ok(())
     }
 
     async fn complete<H: Host<2>>(
-        run: Run<'_, 2>,
+        run: Phase1Run<'_, 2>,
         mut near: Near<'_, H, 2>,
         _tracer: (),
-    ) -> Result<Result<Made<2>, Fallback>, Error> {
+    ) -> Result<Result<MadeMesh<2>, Fallback>, Error> {
         let prepare = || {
             let points = near.host.point_count();
             near.host.work().map(|work| Dimension::<2>::prepare(work, points))
@@ -74,7 +74,7 @@ impl Complete<2> for Dimension<2> {
                 return Ok(Err(Fallback::Folded));
             }
             if now.is_proven {
-                return complete_on_device(ended, near, now).await;
+                return complete_resident(ended, near, now).await;
             }
             checked = Some(now);
         }
@@ -107,7 +107,7 @@ impl Complete<2> for Dimension<2> {
         }
         near.stats.phases.push((Phase::Finish, near.stopwatch.lap()));
         let mesh = Mesh2 { triangles, halfedges, hull, duplicate_of, dimension: 2, stats: Stats::default() };
-        Ok(Ok(Made::Host(mesh)))
+        Ok(Ok(MadeMesh::Host(mesh)))
     }
 }
 
@@ -131,11 +131,11 @@ async fn check<H: Host<2>>(
 }
 
 /// Makes the arrays of a mesh to which nothing is to be done any more on the device.
-async fn complete_on_device<H: Host<2>>(
+async fn complete_resident<H: Host<2>>(
     mut ended: Ended<'_, 2>,
     near: Near<'_, H, 2>,
     Checked { hull, duplicate_of, .. }: Checked,
-) -> Result<Result<Made<2>, Fallback>, Error> {
+) -> Result<Result<MadeMesh<2>, Fallback>, Error> {
     let Ended { gpu, kernels, memory, stats, finite, .. } = &mut ended;
     let aliases = &memory.bound.aliases;
     let points = near.host.point_count();
@@ -147,7 +147,7 @@ async fn complete_on_device<H: Host<2>>(
     let mesh = DeviceMesh::<2>::new(ended.gpu, &readback, arrays, mesh);
     near.stats.gpu = Some(ended.release().summary(near.adapter));
     near.stats.phases.push((Phase::Finish, near.stopwatch.lap()));
-    Ok(Ok(Made::Device(Box::new(mesh))))
+    Ok(Ok(MadeMesh::Device(Box::new(mesh))))
 }
 
 /// Reads what the host has to see of any mesh.

@@ -7,7 +7,7 @@ use crate::{
     d3::{
         Mesh3,
         gpu::{
-            exchange::Device,
+            exchange::ResidentRun,
             stars::{Splayed, splay},
             trace::Tracer,
         },
@@ -17,9 +17,9 @@ use crate::{
     error::Error,
     gpu::{
         Gpu, Storage,
-        engine::{Made, Near},
+        engine::{MadeMesh, Near},
         host::Host,
-        phase1::{Aliases as _, Run, Slot},
+        phase1::{Aliases as _, Phase1Run, Slot},
         progress,
         readback::{Pace, Readback, Target},
         room::fitted,
@@ -44,7 +44,7 @@ const MOST_EXACT: u32 = 16;
 const GRAIN: usize = 1 << 11;
 
 /// Returns whether the host reads the mesh of a run while it splays.
-pub(super) fn pays(run: &Run<'_, 3>) -> bool {
+pub(super) fn pays(run: &Phase1Run<'_, 3>) -> bool {
     let (params, counters) = run.control();
     let slots = run.buffers().simplices.len();
     let pays = || slots >= LEAST_SLOTS && counters.exact / MOST_EXACT < params.infinite;
@@ -53,11 +53,11 @@ pub(super) fn pays(run: &Run<'_, 3>) -> bool {
 
 /// Ends the run, and makes the mesh of the arrays, which another thread reads while this one splays.
 pub(super) async fn complete<H: Host<3>>(
-    run: Run<'_, 3>,
+    run: Phase1Run<'_, 3>,
     mut near: Near<'_, H, 3>,
     mut tracer: Option<Tracer>,
-) -> Result<Result<Made<3>, Fallback>, Error> {
-    let (mut device, begin) = Device::end(run, near.host).await?;
+) -> Result<Result<MadeMesh<3>, Fallback>, Error> {
+    let (mut device, begin) = ResidentRun::end(run, near.host).await?;
     let reading = Arrays::of(&mut device);
     let mut splayed = None;
     let own = || splayed = Some(block_on(splay(&mut device, begin, &mut near, &mut tracer)));
@@ -80,7 +80,7 @@ pub(super) async fn complete<H: Host<3>>(
     near.stats.phases.push((Phase::Finish, near.stopwatch.lap()));
     near.stats.trace = tracer.map(|tracer| tracer.finish(&tetrahedra));
     let mesh = Mesh3 { tetrahedra, neighbors, hull, duplicate_of, dimension: 3, stats: Stats::default() };
-    Ok(Ok(Made::Host(mesh)))
+    Ok(Ok(MadeMesh::Host(mesh)))
 }
 
 /// The arrays of a mesh that are to be read.
@@ -95,7 +95,7 @@ struct Arrays<'a> {
 }
 
 impl<'a> Arrays<'a> {
-    fn of(device: &mut Device<'a>) -> Self {
+    fn of(device: &mut ResidentRun<'a>) -> Self {
         let ended = &mut device.ended;
         let len = ended.len();
         Arrays {

@@ -24,7 +24,7 @@ pub struct OwnBuffers {
     pub failed: Storage<u32>,
     /// One tetrahedron of the mesh at each point, plus 1; 0 for points that are merged into others.
     /// Infinity comes last.
-    pub tet_of: Storage<u32>,
+    pub vertex_simplex: Storage<u32>,
     /// For each point, a bit that says whether its star is wanted.
     pub wanted: Storage<u32>,
     /// The parameters of gathering.
@@ -41,7 +41,7 @@ impl dim::OwnBuffers for OwnBuffers {
         let slots = blocks as usize * BLOCK as usize;
         Ok(OwnBuffers {
             failed: Storage::new(gpu, "failed vertices", points)?,
-            tet_of: Storage::new(gpu, "tetrahedra of points", points + 1)?,
+            vertex_simplex: Storage::new(gpu, "tetrahedra of points", points + 1)?,
             wanted: Storage::new(gpu, "wanted stars", points.div_ceil(32))?,
             gathering: Storage::new(gpu, "gathering", 1)?,
             region_numbers: Storage::in_parts(gpu, "numbers of gathered tetrahedra", slots, parts)?,
@@ -68,14 +68,14 @@ impl dim::OwnBuffers for OwnBuffers {
     /// Records that no vertex failed, that no point has a tetrahedron, and that no star is wanted.
     fn record_clear(&self, encoder: &mut wgpu::CommandEncoder) {
         encoder.clear_buffer(self.failed.buffer(), 0, None);
-        encoder.clear_buffer(self.tet_of.buffer(), 0, None);
+        encoder.clear_buffer(self.vertex_simplex.buffer(), 0, None);
         encoder.clear_buffer(self.wanted.buffer(), 0, None);
     }
 
     fn bindings(&self) -> Vec<Binding<'_>> {
         let mut bindings = vec![
             ("failed", self.failed.buffer()),
-            ("tet_of", self.tet_of.buffer()),
+            ("vertex_simplex", self.vertex_simplex.buffer()),
             ("wanted", self.wanted.buffer()),
             ("gathering", self.gathering.buffer()),
         ];
@@ -87,8 +87,8 @@ impl dim::OwnBuffers for OwnBuffers {
     }
 
     fn bytes(&self) -> u64 {
-        let OwnBuffers { failed, tet_of, wanted, gathering, region_numbers, gathered_slots } = self;
-        let points = failed.bytes() + tet_of.bytes() + wanted.bytes() + gathering.bytes();
+        let OwnBuffers { failed, vertex_simplex, wanted, gathering, region_numbers, gathered_slots } = self;
+        let points = failed.bytes() + vertex_simplex.bytes() + wanted.bytes() + gathering.bytes();
         points + region_numbers.bytes() + gathered_slots.bytes()
     }
 }

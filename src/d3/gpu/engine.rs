@@ -11,7 +11,7 @@ use crate::{
     d3::{
         Mesh3,
         gpu::{
-            exchange::Device,
+            exchange::ResidentRun,
             host::Encloses,
             stars::{Splayed, splay},
             trace::Tracer,
@@ -22,9 +22,9 @@ use crate::{
     gpu::{
         Gpu,
         device_mesh::{DeviceMesh, Outputs},
-        engine::{Complete, Made, Moved, Near},
+        engine::{Complete, MadeMesh, Moved, Near},
         host::Host,
-        phase1::Run,
+        phase1::Phase1Run,
         progress,
     },
     options::Options,
@@ -45,7 +45,7 @@ impl Complete<3> for Dimension<3> {
         options.trace.then(Tracer::default)
     }
 
-    async fn trace_round(tracer: &mut Option<Tracer>, gpu: &Gpu, run: &Run<'_, 3>) -> Result<(), Error> {
+    async fn trace_round(tracer: &mut Option<Tracer>, gpu: &Gpu, run: &Phase1Run<'_, 3>) -> Result<(), Error> {
         match tracer {
             Some(tracer) => tracer.round(gpu, run).await,
             None => Ok(()),
@@ -53,10 +53,10 @@ impl Complete<3> for Dimension<3> {
     }
 
     async fn complete<H: Host<3>>(
-        run: Run<'_, 3>,
+        run: Phase1Run<'_, 3>,
         near: Near<'_, H, 3>,
         tracer: Option<Tracer>,
-    ) -> Result<Result<Made<3>, Fallback>, Error> {
+    ) -> Result<Result<MadeMesh<3>, Fallback>, Error> {
         #[cfg(not(target_arch = "wasm32"))]
         if !near.resident {
             return if beside::pays(&run) {
@@ -65,17 +65,17 @@ impl Complete<3> for Dimension<3> {
                 whole::complete(run, near, tracer).await
             };
         }
-        complete_on_device(run, near, tracer).await
+        complete_resident(run, near, tracer).await
     }
 }
 
 /// Splays the mesh, and has the device make the arrays.
-async fn complete_on_device<H: Host<3>>(
-    run: Run<'_, 3>,
+async fn complete_resident<H: Host<3>>(
+    run: Phase1Run<'_, 3>,
     mut near: Near<'_, H, 3>,
     mut tracer: Option<Tracer>,
-) -> Result<Result<Made<3>, Fallback>, Error> {
-    let (mut device, begin) = Device::end(run, near.host).await?;
+) -> Result<Result<MadeMesh<3>, Fallback>, Error> {
+    let (mut device, begin) = ResidentRun::end(run, near.host).await?;
     let splayed = splay(&mut device, begin, &mut near, &mut tracer).await?;
     let Near { host, options, adapter, moved, stats, stopwatch, .. } = near;
     let Splayed { patch, duplicate_of } = match splayed {
@@ -111,5 +111,5 @@ async fn complete_on_device<H: Host<3>>(
         let tetrahedra = mesh.read_async(Outputs::SIMPLICES).await?.tetrahedra;
         stats.trace = Some(tracer.finish(&tetrahedra));
     }
-    Ok(Ok(Made::Device(Box::new(mesh))))
+    Ok(Ok(MadeMesh::Device(Box::new(mesh))))
 }

@@ -5,9 +5,9 @@ use crate::{
         gpu::{
             buffers::Gathering,
             host::{Begin, Work3},
-            outputs::{Made, OutputParams, SlotMesh},
+            outputs::{MadeArrays, OutputParams, SlotMesh},
         },
-        splay::{Gathered, INCIDENT_SHIFT, Patch, SLOT},
+        splay::{Gathered, NAMED_SHIFT, Patch, SLOT},
     },
     dimension::Dimension,
     error::Error,
@@ -16,7 +16,7 @@ use crate::{
         device_mesh::DeviceArrays,
         host::{Host, Merged, Work},
         layout::{Active, Counters, PARAM_WORDS},
-        phase1::{Copied, Copies, Ended, Memory, Run, Slot, Stage},
+        phase1::{Copied, Copies, Ended, Memory, Phase1Run, Slot, Stage},
         shader::constants::d3,
         workgroups,
     },
@@ -38,7 +38,7 @@ fn ahead(points: usize, has_moved: bool) -> usize {
     if has_moved { (points / 4).clamp(LEAST_AHEAD, AHEAD_OF_MOVED) } else { (points / 16).clamp(LEAST_AHEAD, AHEAD) }
 }
 
-const _: () = assert!(INCIDENT_SHIFT == d3::INCIDENT_SHIFT);
+const _: () = assert!(NAMED_SHIFT == d3::NAMED_SHIFT);
 
 /// Where the number of gathered tetrahedra is, in words of the control buffer.
 const GATHERED: usize = PARAM_WORDS + std::mem::offset_of!(Counters, gathered) / 4;
@@ -84,17 +84,17 @@ impl Gathering3 {
 }
 
 /// The mesh on the device at the end of Phase 1.
-pub(crate) struct Device<'a> {
+pub(crate) struct ResidentRun<'a> {
     pub(crate) ended: Ended<'a, 3>,
 }
 
-impl<'a> Device<'a> {
+impl<'a> ResidentRun<'a> {
     /// Ends the run, and gathers what splaying begins with. `host` prepares while the device is at work.
     ///
     /// # Errors
     ///
-    /// Those of [`Run::advance`].
-    pub(super) async fn end(run: Run<'a, 3>, host: &mut impl Host<3>) -> Result<(Self, Begin), Error> {
+    /// Those of [`Phase1Run::advance`].
+    pub(super) async fn end(run: Phase1Run<'a, 3>, host: &mut impl Host<3>) -> Result<(Self, Begin), Error> {
         let gather = Gathering { first: 1, patched: 0 };
         let (gpu, points) = (run.gpu(), run.control().0.infinite as usize);
         let workgroups = run.workgroups();
@@ -113,7 +113,7 @@ impl<'a> Device<'a> {
             return Err(Error::TooManySimplices { limit: SLOT as usize });
         }
         let (failed_len, uncertain_len) = (ended.counters.failed as usize, ended.counters.uncertain as usize);
-        let mut device = Device { ended };
+        let mut device = ResidentRun { ended };
         let gathered = device.receive(&submission, gathering, spare(host)).await?;
         let mut failed = device.receive_list(&submission, failed, failed_len).await?;
         let uncertain: Vec<Active> = device.receive_list(&submission, uncertain, uncertain_len).await?;
@@ -192,7 +192,7 @@ impl<'a> Device<'a> {
     ///
     /// # Errors
     ///
-    /// Those of [`Run::advance`].
+    /// Those of [`Phase1Run::advance`].
     pub(crate) async fn gather(&mut self, vertices: &[u32], first: u32, spare: Gathered) -> Result<Gathered, Error> {
         let Ended { gpu, kernels, memory, stats, workgroups, .. } = &mut self.ended;
         let gpu: &Gpu = gpu;
@@ -274,7 +274,7 @@ impl<'a> Device<'a> {
             numbers: &buffers.numbering.numbers,
             params,
         };
-        let Made { arrays, hull, dispatches } =
+        let MadeArrays { arrays, hull, dispatches } =
             kernels.outputs.run(gpu, &mut kernels.readback, mesh, reads_hull).await?;
         stats.dispatches += dispatches;
         stats.submits += 1;
@@ -285,7 +285,7 @@ impl<'a> Device<'a> {
     ///
     /// # Errors
     ///
-    /// Those of [`Run::advance`].
+    /// Those of [`Phase1Run::advance`].
     pub(crate) async fn read(&mut self) -> Result<[Vec<Slot>; 2], Error> {
         let len = self.ended.len();
         let Ended { gpu, kernels, memory, stats, .. } = &mut self.ended;

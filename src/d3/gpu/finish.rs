@@ -29,7 +29,7 @@ pub struct NearMesh {
     pub failed: Vec<u32>,
     /// One tetrahedron of each vertex, infinity last; [`NONE`](crate::NONE) for points
     /// that are merged into others.
-    pub tet_of: Vec<u32>,
+    pub vertex_simplex: Vec<u32>,
     /// Tetrahedra, ascending, that are flat (bit 4); and where coordinates were rounded to the
     /// lattice, those of which it does not prove everything: whether facet *k* is locally Delaunay
     /// (bit *k*), or the orientation (bit 4). Each facet is listed with one of its tetrahedra.
@@ -38,7 +38,7 @@ pub struct NearMesh {
 
 /// The readbacks beside those of the tetrahedra and their neighbours.
 pub struct Reading {
-    tet_of: Pending<u32>,
+    vertex_simplex: Pending<u32>,
     failed: Pending<u32>,
     uncertain: Pending<Active>,
 }
@@ -59,7 +59,7 @@ impl Finish<3> for Dimension<3> {
 
     fn copy(copies: &mut Copies<'_>, b: &Buffers<3>, aliases: &Aliases, counters: &Counters) -> Reading {
         Reading {
-            tet_of: copies.copy(&b.own.tet_of, b.own.tet_of.len()),
+            vertex_simplex: copies.copy(&b.own.vertex_simplex, b.own.vertex_simplex.len()),
             failed: copies.copy(&aliases.failed, counters.failed as usize),
             uncertain: copies.copy(&aliases.uncertain, counters.uncertain as usize),
         }
@@ -71,14 +71,14 @@ impl Finish<3> for Dimension<3> {
         [tets, neighbors]: [Vec<[u32; 4]>; 2],
         finite: usize,
     ) -> Result<NearMesh, Error> {
-        let mut tet_of = copied.receive(reading.tet_of).await?;
+        let mut vertex_simplex = copied.receive(reading.vertex_simplex).await?;
         let mut failed = copied.receive(reading.failed).await?;
         let uncertain = copied.receive(reading.uncertain).await?;
 
-        tet_of.iter_mut().for_each(|t: &mut u32| *t = t.wrapping_sub(1));
+        vertex_simplex.iter_mut().for_each(|t: &mut u32| *t = t.wrapping_sub(1));
         failed.sort_unstable();
         let mut uncertain: Vec<[u32; 2]> = uncertain.into_iter().map(|a| [a.tet, a.outcome]).collect();
         uncertain.sort_unstable();
-        Ok(NearMesh { tets, neighbors, finite, failed, tet_of, uncertain })
+        Ok(NearMesh { tets, neighbors, finite, failed, vertex_simplex, uncertain })
     }
 }

@@ -347,7 +347,7 @@ pub(super) struct WholeSplayed {
     pub(super) exact: ExactCounts,
 }
 
-message!(NearMesh { tets, neighbors, finite, failed, tet_of, uncertain });
+message!(NearMesh { tets, neighbors, finite, failed, vertex_simplex, uncertain });
 message!(Whole { near, merged });
 message!(WholeSplayed { tetrahedra, neighbors, hull, duplicate_of, missing, stats, exact });
 
@@ -358,13 +358,13 @@ impl Request<3> for Whole {
     const PHASE: Phase = Phase::Splay;
 
     fn answer(self, side: &mut Side<'_, 3>, report: Report<'_>) -> Result<Self::Answer, Error> {
-        let NearMesh { tets, neighbors, failed, tet_of: mut incident, uncertain, .. } = self.near;
+        let NearMesh { tets, neighbors, failed, mut vertex_simplex, uncertain, .. } = self.near;
         let (points, _, lattice, work) = side.parts();
         let (missing, duplicate_of) = self.merged.missing(points, std::mem::take(&mut work.duplicate_of));
-        incident.truncate(points.len());
+        vertex_simplex.truncate(points.len());
         let near = NearDelaunay3 {
             triangulation: Triangulation3::new(tets, neighbors, points.len() as u32),
-            incident,
+            vertex_simplex,
             failed,
             uncertain: uncertain.into_iter().map(|[t, _]| t).collect(),
             missing: missing.iter().map(|&[i, _]| i).collect(),

@@ -64,7 +64,7 @@ pub struct OutputStage {
 
 /// What the kernels have made.
 #[derive(Debug)]
-pub struct Made {
+pub struct MadeArrays {
     /// The arrays of the caller's mesh.
     pub arrays: DeviceArrays,
     /// The hull, if it was to be read.
@@ -98,7 +98,7 @@ impl OutputStage {
         readback: &mut Readback,
         mesh: SlotMesh<'_>,
         reads_hull: bool,
-    ) -> Result<Made, Error> {
+    ) -> Result<MadeArrays, Error> {
         let OutputParams { count, infinite, finite, hull } = mesh.params;
         let (arrays, dispatches, submission, finite_read, hull_len_read, hull_read) = gpu
             .with_error_scope("the mesh", || {
@@ -151,7 +151,7 @@ impl OutputStage {
             return Err(Error::Gpu { reason });
         }
         let hull = hull_words.as_chunks().0.to_vec();
-        Ok(Made { arrays, hull, dispatches })
+        Ok(MadeArrays { arrays, hull, dispatches })
     }
 }
 

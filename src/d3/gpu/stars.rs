@@ -3,7 +3,7 @@
 use crate::{
     d3::{
         gpu::{
-            exchange::{Device, spare},
+            exchange::{ResidentRun, spare},
             host::{Advanced, Begin, Begun, Facets, Stars, Step},
             trace::Tracer,
         },
@@ -23,7 +23,7 @@ pub(super) struct Splayed {
 
 /// Splays the mesh on the device with the stars that this needs, which are gathered from it.
 pub(super) async fn splay<H: Host<3>>(
-    device: &mut Device<'_>,
+    device: &mut ResidentRun<'_>,
     begin: Begin,
     near: &mut Near<'_, H, 3>,
     tracer: &mut Option<Tracer>,

@@ -6,7 +6,7 @@ use crate::{
         triangulation::{Triangulation3, state},
     },
     error::Error,
-    gpu::{Gpu, Readback, phase1::Run},
+    gpu::{Gpu, Readback, phase1::Phase1Run},
     parallel::{self, Threads},
     predicates::filter::PredicateContext3,
     stats::Trace,
@@ -20,7 +20,7 @@ pub struct Tracer {
 
 impl Tracer {
     /// Reads all tetrahedra back, after a round of Phase 1.
-    pub(crate) async fn round(&mut self, gpu: &Gpu, run: &Run<'_, 3>) -> Result<(), Error> {
+    pub(crate) async fn round(&mut self, gpu: &Gpu, run: &Phase1Run<'_, 3>) -> Result<(), Error> {
         let (buffers, infinite) = (run.buffers(), run.control().0.infinite);
         let mut readback = Readback::default();
         let slots = readback.read(gpu, &buffers.simplices, 0, buffers.simplices.len()).await?;

@@ -10,9 +10,9 @@ use crate::{
     },
     error::Error,
     gpu::{
-        engine::{Made, Near},
+        engine::{MadeMesh, Near},
         host::Host,
-        phase1::Run,
+        phase1::Phase1Run,
         progress,
     },
     stats::{Fallback, Phase, Stats},
@@ -20,10 +20,10 @@ use crate::{
 
 /// Ends the run, and makes the mesh of what is read back as a whole.
 pub(super) async fn complete<H: Host<3>>(
-    run: Run<'_, 3>,
+    run: Phase1Run<'_, 3>,
     mut near: Near<'_, H, 3>,
     mut tracer: Option<Tracer>,
-) -> Result<Result<Made<3>, Fallback>, Error> {
+) -> Result<Result<MadeMesh<3>, Fallback>, Error> {
     let (mut ended, _, (), ()) = run.end(|_, _| (), || ()).await?;
     let (result, merged) = ended.read().await?;
     near.end_of_phase1(&ended.stats);
@@ -47,5 +47,5 @@ pub(super) async fn complete<H: Host<3>>(
     options.report(Phase::Finish, progress::FINISH)?;
     stats.trace = tracer.map(|tracer| tracer.finish(&tetrahedra));
     let mesh = Mesh3 { tetrahedra, neighbors, hull, duplicate_of, dimension: 3, stats: Stats::default() };
-    Ok(Ok(Made::Host(mesh)))
+    Ok(Ok(MadeMesh::Host(mesh)))
 }

@@ -48,7 +48,7 @@ impl Known {
         v: u32,
     ) -> Result<(Star, Origin), Aborted> {
         let Lists { links, entries, removed, edges, .. } = lists;
-        let mut star = links.star(&self.region.mesh, v, self.region.incident[v as usize])?;
+        let mut star = links.star(&self.region.mesh, v, self.region.vertex_simplex[v as usize])?;
         let may_wind = || star.used().any(|t| t.vertices.iter().any(|&v| self.inverted_at.has(v)));
         let is_oriented = self.is_oriented(predicates, &star) && (!may_wind() || star.winds_once(predicates));
         if is_oriented && !self.failed.has(v) {

@@ -156,7 +156,7 @@ impl Splaying {
             let requests = std::mem::take(&mut self.requests);
             let mut requests: Vec<&[Request]> = requests.chunk_by(|r, s| r.vertex == s.vertex).collect();
             // Stars that are near each other have tetrahedra and points in common.
-            let places = requests.iter().map(|r| self.known.region.incident[r[0].vertex as usize]).collect();
+            let places = requests.iter().map(|r| self.known.region.vertex_simplex[r[0].vertex as usize]).collect();
             parallel::sort_by_keys(self.threads, &mut requests, places);
             for batch in requests.chunks(self.batch_len()) {
                 results.extend(self.widen_stars(predicates, batch)?);

@@ -9,10 +9,10 @@ use crate::{
 pub(super) const OUTSIDE: u32 = 0;
 
 /// The bits of the slot, in [`Gathered::slots`].
-pub const SLOT: u32 = (1 << INCIDENT_SHIFT) - 1;
+pub const SLOT: u32 = (1 << NAMED_SHIFT) - 1;
 
 /// Where the vertices start, in [`Gathered::slots`], of which it is the tetrahedron.
-pub const INCIDENT_SHIFT: u32 = 28;
+pub const NAMED_SHIFT: u32 = 28;
 
 /// Tetrahedra of a triangulation, numbered in this order.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -21,7 +21,7 @@ pub struct Gathered {
     pub tetrahedra: Vec<[u32; 4]>,
     /// The neighbours of each, 4·number + facet; below 4 where the neighbour has not been gathered.
     pub neighbors: Vec<[u32; 4]>,
-    /// Where each is in the triangulation ([`SLOT`]); bit [`INCIDENT_SHIFT`] + *k* says that it is the
+    /// Where each is in the triangulation ([`SLOT`]); bit [`NAMED_SHIFT`] + *k* says that it is the
     /// tetrahedron of its vertex *k*. Every vertex has one, a ghost if it has any.
     pub slots: Vec<u32>,
 }

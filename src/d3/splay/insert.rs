@@ -30,13 +30,13 @@ pub(super) fn insert(
     }
     let mut scratch = Insert::scratch(&region.mesh);
     let mut links = LinkFinder::default();
-    let first = region.incident.iter().copied().find(|&t| t != NONE);
+    let first = region.vertex_simplex.iter().copied().find(|&t| t != NONE);
     let mut last = first.ok_or(Aborted::Inconsistent("no vertex has a tetrahedron"))?;
     for (i, [p, near]) in std::mem::take(missing).into_iter().enumerate() {
         if i % <Triangulation3 as Insert<3>>::REPORT == 0 {
             report(1.0)?;
         }
-        let start = region.incident.get(near as usize).copied().filter(|&t| t != NONE).unwrap_or(last);
+        let start = region.vertex_simplex.get(near as usize).copied().filter(|&t| t != NONE).unwrap_or(last);
         match cavity(region, vertices, p, start) {
             Ok(start) => {
                 let inserted = region.mesh.insert(vertices, p, start, &mut scratch)?;

@@ -36,7 +36,7 @@ use build::Known;
 use consistency::Splaying;
 #[cfg(feature = "gpu")]
 pub(crate) use gathered::SLOT;
-pub use gathered::{Gathered, INCIDENT_SHIFT};
+pub use gathered::{Gathered, NAMED_SHIFT};
 pub(in crate::d3) use index_set::IndexSet;
 use predicates::StarPredicates;
 pub use region::{KEEP, KeptRegion, Patch, Region};
@@ -51,7 +51,7 @@ pub struct NearDelaunay3 {
     pub triangulation: Triangulation3,
     /// A tetrahedron at each vertex, a ghost if there is one; [`NONE`] for the vertices that
     /// are missing.
-    pub incident: Vec<u32>,
+    pub vertex_simplex: Vec<u32>,
     /// The vertices of all facets that are known not to be locally Delaunay, the facets of ghosts
     /// included.
     pub failed: Vec<u32>,
@@ -179,9 +179,9 @@ pub fn splay_again(
     terms: Terms<'_>,
     kept: &mut KeptRegion,
 ) -> Result<SplayOutcome, Error> {
-    let NearDelaunay3 { triangulation, incident, failed, uncertain, missing } = near;
+    let NearDelaunay3 { triangulation, vertex_simplex, failed, uncertain, missing } = near;
     let missing = missing.into_iter().map(|v| [v, NONE]).collect();
-    let region = Region::whole(kept.take(), triangulation, incident);
+    let region = Region::whole(kept.take(), triangulation, vertex_simplex);
     let splayed = || -> Result<_, Stop> {
         let mut splay = Splay::begin(vertices, region, Doubts { failed, uncertain, missing }, terms)?;
         // Nothing is lacking of what is there as a whole.
@@ -245,8 +245,8 @@ impl Splay {
             })
             .concat();
         let found = flat.len();
-        let Region { mesh, incident, .. } = &mut region;
-        let mut suspect = peel::peel(mesh, &predicates, threads, &mut flat, incident, &mut free)?;
+        let Region { mesh, vertex_simplex, .. } = &mut region;
+        let mut suspect = peel::peel(mesh, &predicates, threads, &mut flat, vertex_simplex, &mut free)?;
         let peeled = found - flat.len();
 
         suspect.extend(uncertain);
@@ -272,7 +272,7 @@ impl Splay {
         failed.sort_unstable();
         failed.dedup();
         // Stars that are near each other have tetrahedra and points in common.
-        let places = failed.iter().map(|&v| region.incident[v as usize]).collect();
+        let places = failed.iter().map(|&v| region.vertex_simplex[v as usize]).collect();
         parallel::sort_by_keys(threads, &mut failed, places);
         let mut has_failed = IndexSet::new(infinite as usize);
         failed.iter().for_each(|&v| has_failed.insert(v));

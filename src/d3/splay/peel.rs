@@ -23,14 +23,14 @@ use rustc_hash::FxHashMap;
 /// Peels the tetrahedra of `flat` that can be peeled; the others are left in it. Returns the slots
 /// of new ghosts, some of which may have been replaced again.
 ///
-/// `incident` has a tetrahedron of each vertex, before and after, and a ghost of each vertex on the
+/// `vertex_simplex` has a tetrahedron of each vertex, before and after, and a ghost of each vertex on the
 /// hull. All threads evaluate predicates, one thread flips.
 pub(super) fn peel(
     mesh: &mut Triangulation3,
     predicates: &StarPredicates<'_>,
     threads: Threads,
     flat: &mut Vec<u32>,
-    incident: &mut [u32],
+    vertex_simplex: &mut [u32],
     free: &mut Vec<u32>,
 ) -> Result<Vec<u32>, Error> {
     let sides = predicates.shared(threads, flat.len(), TETRAHEDRON_GRAIN, |predicates, range| {
@@ -48,7 +48,7 @@ pub(super) fn peel(
             while let Some(t) = next.pop() {
                 let Some(&sides) = left.get(&t) else { continue };
                 let start = made.len();
-                peel_one(mesh, t, sides, incident, free, &mut made)?;
+                peel_one(mesh, t, sides, vertex_simplex, free, &mut made)?;
                 if made.len() == start {
                     continue;
                 }
@@ -80,7 +80,7 @@ fn peel_one(
     mesh: &mut Triangulation3,
     t: u32,
     sides: Sides,
-    incident: &mut [u32],
+    vertex_simplex: &mut [u32],
     free: &mut Vec<u32>,
     made: &mut Vec<u32>,
 ) -> Result<(), Error> {
@@ -101,7 +101,7 @@ fn peel_one(
     let fits = |i: usize| sides >> in_t[i] & 1 != 0;
     match y {
         None => {
-            if !(0..3).all(fits) || mesh.is_ghost(incident[v[x] as usize]) {
+            if !(0..3).all(fits) || mesh.is_ghost(vertex_simplex[v[x] as usize]) {
                 return Ok(());
             }
             let slots = [ghost, t, take(mesh, free)?];
@@ -116,8 +116,8 @@ fn peel_one(
             }
             // Only these vertices are no longer in the slot recorded for them, or were not on the
             // hull.
-            incident[g[0] as usize] = slots[1];
-            incident[v[x] as usize] = ghost;
+            vertex_simplex[g[0] as usize] = slots[1];
+            vertex_simplex[v[x] as usize] = ghost;
             made.extend(slots);
         }
         Some(y) => {
@@ -140,8 +140,8 @@ fn peel_one(
                 mesh.join(4 * slot + iy as u32, outer);
             }
             mesh.join(4 * ghost + ib as u32, 4 * other + ia as u32);
-            incident[g[ia] as usize] = other;
-            incident[g[ib] as usize] = ghost;
+            vertex_simplex[g[ia] as usize] = other;
+            vertex_simplex[g[ib] as usize] = ghost;
             mesh.set_state(t, state::FREE);
             free.push(t);
             made.extend([ghost, other]);

@@ -9,7 +9,7 @@ use crate::{
     d3::{
         splay::{
             Aborted,
-            gathered::{Gathered, INCIDENT_SHIFT, OUTSIDE, SLOT},
+            gathered::{Gathered, NAMED_SHIFT, OUTSIDE, SLOT},
             index_set::IndexSet,
             memory::Memory,
         },
@@ -48,7 +48,7 @@ pub struct Patch {
 pub struct Region {
     pub(super) mesh: Triangulation3,
     /// A tetrahedron of each vertex whose star the region has, a ghost if there is one.
-    pub(super) incident: Vec<u32>,
+    pub(super) vertex_simplex: Vec<u32>,
     /// The vertices of which the region has the whole star.
     complete: Complete,
     /// The tetrahedra as they were gathered, from number 1 on. Those that splaying adds have no slot here.
@@ -72,7 +72,7 @@ impl Region {
         let infinite = vertices as u32;
         Region {
             mesh: Self::outside(Vec::new(), Vec::new(), infinite),
-            incident: parallel::filled(threads, vertices, NONE),
+            vertex_simplex: parallel::filled(threads, vertices, NONE),
             complete: Complete::Those(IndexSet::new(vertices)),
             given: Gathered::default(),
             gathers: [0; 2],
@@ -92,17 +92,17 @@ impl Region {
     pub fn again(kept: Option<Self>, vertices: usize, threads: Threads) -> Self {
         let Some(kept) = kept else { return Region::new(vertices, threads) };
         let infinite = vertices as u32;
-        let Region { mut mesh, mut incident, given, mut memory, .. } = kept;
+        let Region { mut mesh, mut vertex_simplex, given, mut memory, .. } = kept;
         if mesh.infinite != infinite {
             return Region { memory, ..Region::new(vertices, threads) };
         }
         mesh.tetrahedra.clear();
         mesh.neighbors.clear();
         let mesh = Self::outside(mesh.tetrahedra, mesh.neighbors, infinite);
-        parallel::for_chunks(threads, &mut incident, |_, incident| incident.fill(NONE));
+        parallel::for_chunks(threads, &mut vertex_simplex, |_, vertex_simplex| vertex_simplex.fill(NONE));
         memory.keep_gathered(given);
         let complete = Complete::Those(IndexSet::new(vertices));
-        Region { mesh, incident, complete, given: Gathered::default(), gathers: [0; 2], memory }
+        Region { mesh, vertex_simplex, complete, given: Gathered::default(), gathers: [0; 2], memory }
     }
 
     /// Returns memory for what is to be gathered.
@@ -112,9 +112,9 @@ impl Region {
 
     /// Creates the region that is a whole triangulation, with a tetrahedron at each vertex, a ghost
     /// if there is one. It has the memory of the stars of `kept`.
-    pub(super) fn whole(kept: Option<Self>, mesh: Triangulation3, incident: Vec<u32>) -> Self {
+    pub(super) fn whole(kept: Option<Self>, mesh: Triangulation3, vertex_simplex: Vec<u32>) -> Self {
         let (given, memory) = (Gathered::default(), kept.map_or_else(Memory::default, |kept| kept.memory));
-        Region { mesh, incident, complete: Complete::All, given, gathers: [0; 2], memory }
+        Region { mesh, vertex_simplex, complete: Complete::All, given, gathers: [0; 2], memory }
     }
 
     /// Returns the number of the next tetrahedron.
@@ -164,7 +164,7 @@ impl Region {
         threads: Threads,
     ) -> Result<(), Aborted> {
         const DO_NOT_FIT: Aborted = Aborted::Inconsistent("gathered tetrahedra do not fit what is there");
-        let Region { mesh, incident, complete, given, gathers, memory } = self;
+        let Region { mesh, vertex_simplex, complete, given, gathers, memory } = self;
         let Gathered { tetrahedra, neighbors, slots } = &mut gathered;
         let (tetrahedra, neighbors) = (&*tetrahedra, &*neighbors);
         let first = mesh.tetrahedra.len();
@@ -178,7 +178,7 @@ impl Region {
         parallel::extend(threads, &mut mesh.tetrahedra, tetrahedra);
         parallel::extend(threads, &mut mesh.neighbors, neighbors);
         for ((t, v), word) in (first as u32..).zip(tetrahedra).zip(slots) {
-            let of = *word >> INCIDENT_SHIFT;
+            let of = *word >> NAMED_SHIFT;
             // Most are the tetrahedron of no vertex.
             if of == 0 {
                 continue;
@@ -186,8 +186,8 @@ impl Region {
             *word &= SLOT;
             for (_, &v) in v.iter().enumerate().filter(|(k, _)| of >> k & 1 != 0) {
                 // There is none of infinity.
-                if let Some(incident) = incident.get_mut(v as usize) {
-                    *incident = t;
+                if let Some(vertex_simplex) = vertex_simplex.get_mut(v as usize) {
+                    *vertex_simplex = t;
                 }
             }
         }
@@ -244,8 +244,8 @@ impl Region {
     pub(super) fn note(&mut self, tetrahedra: impl IntoIterator<Item = u32>) {
         for t in tetrahedra {
             for v in self.mesh.vertices(t) {
-                if let Some(incident) = self.incident.get_mut(v as usize) {
-                    *incident = t;
+                if let Some(vertex_simplex) = self.vertex_simplex.get_mut(v as usize) {
+                    *vertex_simplex = t;
                 }
             }
         }

@@ -46,14 +46,15 @@ pub(super) fn votes<const D: usize, const N: usize>(
     let mut constraints = Constraints::new(complex, spheres, stars, poles);
     // The outside has number 0, and so stands for its set.
     let mut sets = ParitySets::new(complex.simplices.len() + 1);
-    for round in 0..ROUNDS.len() {
-        let below = round.checked_sub(1).map_or(u16::MAX, |before| ROUNDS[before] - 1);
-        let (strengths, found) = constraints.between(ROUNDS[round], below, &sets);
+    let mut strongest = u16::MAX;
+    for weakest in ROUNDS {
+        let (strengths, found) = constraints.between(weakest, strongest, &sets);
         for i in parallel::order_of(Threads::All, strengths) {
             let Constraint { poles: [a, b], are_opposite } = found[i as usize];
             sets.unite(a, b, are_opposite);
         }
         sets.flatten();
+        strongest = weakest.saturating_sub(1);
     }
     let mut votes = vec![0; complex.simplices.len()];
     for pole in poles.iter().flat_map(|poles| [poles.first, poles.second]).filter(|&pole| pole < OUTSIDE) {

@@ -17,13 +17,13 @@ use crate::{
             memory::{Kept, Memory},
             plan::{Plan, Rules},
             record::DeviceRun,
-            run::Run,
+            run::Phase1Run,
             settings::Settings,
             stages::Stage,
             stats::{Meter, Phase1Stats},
         },
         points::InputParams,
-        start::{Start, StartMesh},
+        start::{StartMesh, StartSimplex},
     },
     options::Winding,
     stats::Stopwatch,
@@ -47,9 +47,9 @@ where
     /// Where the points are on the lattice.
     pub params: InputParams,
     /// The first simplex, by input indices.
-    pub first: Start<D>,
-    /// Whether as a rule no points are inserted, because [`Run::take`] comes next: then what they
-    /// would be inserted into is made only by [`Run::forget`].
+    pub first: StartSimplex<D>,
+    /// Whether as a rule no points are inserted, because [`Phase1Run::update`] comes next: then what they
+    /// would be inserted into is made only by [`Phase1Run::forget`].
     pub starts_later: bool,
 }
 
@@ -67,7 +67,7 @@ where
     }
 }
 
-impl<'a, const D: usize> Run<'a, D>
+impl<'a, const D: usize> Phase1Run<'a, D>
 where
     Dimension<D>: Finish<D>,
 {
@@ -137,7 +137,7 @@ where
             removes: kernels.stages.can(Stage::Remove),
         };
         let start_points = start.points.len();
-        Ok(Run {
+        Ok(Phase1Run {
             gpu,
             profiler,
             device,

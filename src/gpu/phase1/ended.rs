@@ -14,7 +14,7 @@ use crate::{
             kernels::Phase1,
             memory::Memory,
             record::counters_in,
-            run::{Run, Submitted},
+            run::{Phase1Run, Submitted},
             settings::Settings,
             stats::Phase1Stats,
         },
@@ -42,7 +42,7 @@ where
     pub stats: Phase1Stats,
 }
 
-impl<'a, const D: usize> Run<'a, D>
+impl<'a, const D: usize> Phase1Run<'a, D>
 where
     Dimension<D>: Finish<D>,
 {
@@ -57,7 +57,7 @@ where
     /// far as that is known.
     pub fn abandon(mut self) -> Phase1Stats {
         self.keep_needed();
-        let Run { kernels, device, plan, mut meter, .. } = self;
+        let Phase1Run { kernels, device, plan, mut meter, .. } = self;
         meter.end(*plan.counters());
         kernels.kept.points = device.points;
         keep(kernels, device.memory, meter.read_before, meter.stats)
@@ -67,7 +67,7 @@ where
     ///
     /// # Errors
     ///
-    /// Those of [`Run::advance`].
+    /// Those of [`Phase1Run::advance`].
     pub async fn finish(self) -> Result<Phase1Output<D>, Error> {
         let (mut ended, _, (), ()) = self.end(|_, _| (), || ()).await?;
         let (result, merged) = ended.read().await?;
@@ -79,7 +79,7 @@ where
     ///
     /// # Errors
     ///
-    /// Those of [`Run::advance`].
+    /// Those of [`Phase1Run::advance`].
     pub(crate) async fn end<T, U>(
         mut self,
         more: impl FnOnce(&mut Copies<'_>, &Memory<D>) -> T,
@@ -150,7 +150,7 @@ where
     ///
     /// # Errors
     ///
-    /// Those of [`Run::new`], [`Run::advance`] and [`Run::finish`].
+    /// Those of [`Phase1Run::new`], [`Phase1Run::advance`] and [`Phase1Run::finish`].
     ///
     /// # Panics
     ///
@@ -163,7 +163,7 @@ where
         profiler: Option<&mut Profiler>,
     ) -> Result<Phase1Output<D>, Error> {
         let begin = Begin::of(host.ask(Fit::default()).await?);
-        let mut run = Run::new(self, gpu, host, begin, *settings, profiler).await?;
+        let mut run = Phase1Run::new(self, gpu, host, begin, *settings, profiler).await?;
         while run.advance().await? {}
         run.finish().await
     }
@@ -225,7 +225,7 @@ where
     ///
     /// # Errors
     ///
-    /// Those of [`Run::advance`].
+    /// Those of [`Phase1Run::advance`].
     pub(crate) async fn read(&mut self) -> Result<(<Dimension<D> as Finish<D>>::Result, Vec<[u32; 2]>), Error> {
         let mut clock = Stopwatch::start();
         let rooms = self.take_rooms();
@@ -259,7 +259,7 @@ where
     ///
     /// # Errors
     ///
-    /// Those of [`Run::advance`].
+    /// Those of [`Phase1Run::advance`].
     pub(crate) async fn read_merged(&mut self) -> Result<Vec<[u32; 2]>, Error> {
         let merged = match std::mem::replace(&mut self.merged, Merged::Known(Vec::new())) {
             Merged::Coming(submission, merged) => {

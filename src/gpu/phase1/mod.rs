@@ -51,7 +51,7 @@ pub use ended::{Ended, Phase1Output};
 pub use finish::{Aliases, Copied, Copies, Finish};
 pub use kernels::Phase1;
 pub(crate) use memory::Memory;
-pub use run::Run;
+pub use run::Phase1Run;
 pub use settings::{Budget, MemorySettings, Settings};
 pub(crate) use stages::Stage;
 pub use stats::Phase1Stats;

@@ -8,11 +8,13 @@ use crate::{
         device_mesh::DeviceMesh,
         host::{Host, MakeStart},
         layout::Counters,
-        phase1::{capacity::MAX_SIMPLICES, ended::pairs, finish::Finish, plan::Plan, record::counters_in, run::Run},
+        phase1::{
+            capacity::MAX_SIMPLICES, ended::pairs, finish::Finish, plan::Plan, record::counters_in, run::Phase1Run,
+        },
     },
 };
 
-impl<const D: usize> Run<'_, D>
+impl<const D: usize> Phase1Run<'_, D>
 where
     Dimension<D>: Finish<D>,
 {
@@ -23,12 +25,12 @@ where
     ///
     /// The flips that follow repair what they can. If `flips_at_once`, the first of them are submitted
     /// with it; the device leaves them out beyond [`Limits`](crate::gpu::update::Limits).
-    /// [`Run::forget`] has the points inserted instead.
+    /// [`Phase1Run::forget`] has the points inserted instead.
     ///
     /// # Errors
     ///
-    /// Those of [`Run::advance`].
-    pub(crate) async fn take(
+    /// Those of [`Phase1Run::advance`].
+    pub(crate) async fn update(
         &mut self,
         mesh: &DeviceMesh<D>,
         flips_at_once: bool,
@@ -75,11 +77,11 @@ where
     }
 
     /// Reads the points that are vertices of no simplex, as
-    /// [`Phase1Output::merged`](crate::gpu::phase1::Phase1Output::merged) has them, after [`Run::take`].
+    /// [`Phase1Output::merged`](crate::gpu::phase1::Phase1Output::merged) has them, after [`Phase1Run::update`].
     ///
     /// # Errors
     ///
-    /// Those of [`Run::advance`].
+    /// Those of [`Phase1Run::advance`].
     pub(crate) async fn read_merged(&mut self) -> Result<Vec<[u32; 2]>, Error> {
         if self.plan.counters().merged == 0 {
             return Ok(Vec::new());

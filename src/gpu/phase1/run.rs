@@ -17,14 +17,14 @@ use crate::{
             settings::Settings,
             stats::Meter,
         },
-        start::{Start, StartMesh},
+        start::{StartMesh, StartSimplex},
     },
     stats::Round,
 };
 use std::collections::VecDeque;
 
 /// A run in progress.
-pub struct Run<'a, const D: usize>
+pub struct Phase1Run<'a, const D: usize>
 where
     Dimension<D>: Finish<D>,
 {
@@ -32,7 +32,7 @@ where
     pub(super) gpu: &'a Gpu,
     pub(super) profiler: Option<&'a mut Profiler>,
     pub(super) device: DeviceRun<D>,
-    pub(super) first: Start<D>,
+    pub(super) first: StartSimplex<D>,
     pub(super) start: StartMesh,
     pub(super) plan: Plan,
     /// What the run before that inserted as many points needed.
@@ -50,7 +50,7 @@ pub(super) struct Submitted {
     pub(super) counters: Pending<u32>,
 }
 
-impl<'a, const D: usize> Run<'a, D>
+impl<'a, const D: usize> Phase1Run<'a, D>
 where
     Dimension<D>: Finish<D>,
 {
@@ -137,7 +137,7 @@ where
     }
 
     fn submit_batch(&mut self) -> Result<Submitted, Error> {
-        let Run { gpu, kernels, device, plan, .. } = self;
+        let Phase1Run { gpu, kernels, device, plan, .. } = self;
         let mut recorder = Recorder::new(gpu, self.profiler.as_deref_mut());
         let batch = plan.next_batch();
         if batch.is_first {

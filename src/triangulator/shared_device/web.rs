@@ -10,7 +10,7 @@ use crate::{
     gpu::{
         Gpu,
         device_mesh::{DeviceMesh, DeviceMesh2, DeviceMesh3},
-        engine::{Destination, Made, Outcome},
+        engine::{Destination, MadeMesh, Outcome},
         host::Host,
     },
     input::points::{Points, Points2, Points3},
@@ -21,7 +21,7 @@ use crate::{
 
 /// To a function of the caller's: from where it was made, or from the device.
 struct ToCaller<'a, F, R, const D: usize> {
-    on_device: Option<ToDevice<'a, D>>,
+    to_device: Option<ToDevice<'a, D>>,
     take: F,
     result: std::marker::PhantomData<R>,
 }
@@ -32,11 +32,11 @@ where
 {
     /// Returns the mesh of the points where they were, if they have moved.
     fn moved(&self) -> Option<&DeviceMesh<D>> {
-        self.on_device.as_ref()?.moved
+        self.to_device.as_ref()?.moved
     }
 }
 
-impl<const D: usize, R, F: AsyncFn(Made<D>) -> Result<R, Error>> Deliver<D> for ToCaller<'_, F, R, D>
+impl<const D: usize, R, F: AsyncFn(MadeMesh<D>) -> Result<R, Error>> Deliver<D> for ToCaller<'_, F, R, D>
 where
     Dimension<D>: Choice<D>,
 {
@@ -46,9 +46,11 @@ where
         Destination::Device(self.moved())
     }
 
-    async fn deliver(&self, mesh: Made<D>, gpu: Option<Gpu>) -> Result<R, Error> {
-        let mut mesh = match (mesh, &self.on_device) {
-            (mesh @ Made::Host(_), Some(on_device)) => Made::Device(Box::new(on_device.deliver(mesh, gpu).await?)),
+    async fn deliver(&self, mesh: MadeMesh<D>, gpu: Option<Gpu>) -> Result<R, Error> {
+        let mut mesh = match (mesh, &self.to_device) {
+            (mesh @ MadeMesh::Host(_), Some(to_device)) => {
+                MadeMesh::Device(Box::new(to_device.deliver(mesh, gpu).await?))
+            }
             (mesh, _) => mesh,
         };
         if self.moved().is_some() {
@@ -68,14 +70,14 @@ impl SharedDevice {
         options: &Options,
         resident: bool,
         moved: Option<&DeviceMesh<D>>,
-        take: impl AsyncFn(Made<D>) -> Result<R, Error>,
+        take: impl AsyncFn(MadeMesh<D>) -> Result<R, Error>,
     ) -> Result<R, Error>
     where
         Dimension<D>: Choice<D>,
     {
         check_count(points, moved)?;
-        let on_device = resident.then_some(ToDevice { device: self, moved });
-        self.run(points, options, &mut ToCaller { on_device, take, result: std::marker::PhantomData }).await
+        let to_device = resident.then_some(ToDevice { device: self, moved });
+        self.run(points, options, &mut ToCaller { to_device, take, result: std::marker::PhantomData }).await
     }
 
     /// Drives the GPU engine with a host in another thread, from `moved` on if there is such a mesh. Returns the
@@ -127,7 +129,7 @@ impl Triangulator {
         points: Points3<'_>,
         resident: bool,
         moved: Option<&DeviceMesh3>,
-        deliver: impl AsyncFn(Made<3>) -> Result<R, Error>,
+        deliver: impl AsyncFn(MadeMesh<3>) -> Result<R, Error>,
     ) -> Result<R, Error> {
         self.device.deliver(points, &self.options, resident, moved, deliver).await
     }
@@ -139,7 +141,7 @@ impl Triangulator {
         points: Points2<'_>,
         resident: bool,
         moved: Option<&DeviceMesh2>,
-        deliver: impl AsyncFn(Made<2>) -> Result<R, Error>,
+        deliver: impl AsyncFn(MadeMesh<2>) -> Result<R, Error>,
     ) -> Result<R, Error> {
         self.device.deliver(points, &self.options, resident, moved, deliver).await
     }

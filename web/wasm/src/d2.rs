@@ -4,7 +4,7 @@ use gdel::{
     Backend, DeviceMesh2, Mesh2, Triangulator,
     internals::{
         Winding,
-        gpu::{engine::Made, host::AnyHost},
+        gpu::{engine::MadeMesh, host::AnyHost},
         triangulator::MIN_POINTS_2D,
     },
 };
@@ -28,7 +28,7 @@ pub fn min_gpu_points_2d() -> u32 {
 
 #[wasm_bindgen]
 impl WasmTriangulator {
-    /// Triangulates in 2D. With `on_device`, the mesh stays on the device; else its arrays are read
+    /// Triangulates in 2D. With `resident`, the mesh stays on the device; else its arrays are read
     /// into what `memory` returns for a number of bytes. A mesh of the CPU has a triangle of each point if
     /// `vertex_simplex`.
     pub async fn delaunay2d(
@@ -36,11 +36,11 @@ impl WasmTriangulator {
         points: JsValue,
         backend: &str,
         vertex_simplex: bool,
-        on_device: bool,
+        resident: bool,
         memory: Function,
         report: Function,
     ) -> Result<JsValue, Thrown> {
-        run(self.for_run(backend, report), points, (!on_device).then_some(memory), None, vertex_simplex).await
+        run(self.for_run(backend, report), points, (!resident).then_some(memory), None, vertex_simplex).await
     }
 }
 
@@ -91,8 +91,8 @@ async fn run(
     let coordinates = Coordinates::new(&points)?;
     drop(points);
     let triangulator = triangulator.winding(Winding::Clockwise);
-    let deliver = async |mesh: Made<2>| match (mesh, &memory) {
-        (Made::Host(mesh), _) => {
+    let deliver = async |mesh: MadeMesh<2>| match (mesh, &memory) {
+        (MadeMesh::Host(mesh), _) => {
             let vertex_simplex = vertex_simplex.then(|| signed(&mesh.vertex_triangle()));
             let result = mesh2(mesh, true);
             if let Some(array) = vertex_simplex {
@@ -100,13 +100,13 @@ async fn run(
             }
             Ok(result)
         }
-        (Made::Device(mesh), Some(memory)) => {
+        (MadeMesh::Device(mesh), Some(memory)) => {
             let arrays = [(0, "triangles"), (1, "halfedges"), (2, "hull")];
             let (result, _) = resident::read(&mesh, &arrays, memory).await?;
             set(&result, "duplicateOf", signed(mesh.duplicate_of()));
             Ok(result)
         }
-        (Made::Device(mesh), None) => Ok(resident::hand_over(*mesh, |mesh| WasmMesh2(mesh).into())),
+        (MadeMesh::Device(mesh), None) => Ok(resident::hand_over(*mesh, |mesh| WasmMesh2(mesh).into())),
     };
     Ok(triangulator.deliver2d(coordinates.points()?, memory.is_none(), moved, deliver).await?)
 }

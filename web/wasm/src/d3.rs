@@ -3,7 +3,7 @@
 use gdel::{
     Backend, DeviceMesh3, Error, Mesh3, Triangulator,
     internals::{
-        gpu::{engine::Made, host::AnyHost},
+        gpu::{engine::MadeMesh, host::AnyHost},
         triangulator::MIN_POINTS_3D,
     },
 };
@@ -34,19 +34,19 @@ impl WasmTriangulator {
         Ok(())
     }
 
-    /// Triangulates in 3D. With `on_device`, the mesh stays on the device, and `outputs` has no
+    /// Triangulates in 3D. With `resident`, the mesh stays on the device, and `outputs` has no
     /// meaning; else its arrays are read into what `memory` returns for a number of bytes.
     pub async fn delaunay3d(
         &self,
         points: JsValue,
         backend: &str,
         outputs: Outputs,
-        on_device: bool,
+        resident: bool,
         memory: Function,
         report: Function,
     ) -> Result<JsValue, Thrown> {
         let triangulator = self.for_run(backend, report).trace(outputs.trace);
-        run(&triangulator, points, (!on_device).then_some((outputs, memory)), None).await
+        run(&triangulator, points, (!resident).then_some((outputs, memory)), None).await
     }
 }
 
@@ -101,13 +101,13 @@ async fn run(
 ) -> Result<JsValue, Thrown> {
     let coordinates = Coordinates::new(&points)?;
     drop(points);
-    let deliver = async |mesh: Made<3>| match (mesh, &read) {
-        (Made::Host(mesh), read) => {
+    let deliver = async |mesh: MadeMesh<3>| match (mesh, &read) {
+        (MadeMesh::Host(mesh), read) => {
             let (outputs, _) = read.as_ref().expect("what stays on the device is there");
             Ok(mesh3(mesh, *outputs))
         }
-        (Made::Device(mesh), Some((outputs, memory))) => read3(&mesh, *outputs, memory).await,
-        (Made::Device(mesh), None) => Ok(resident::hand_over(*mesh, |mesh| WasmMesh3(mesh).into())),
+        (MadeMesh::Device(mesh), Some((outputs, memory))) => read3(&mesh, *outputs, memory).await,
+        (MadeMesh::Device(mesh), None) => Ok(resident::hand_over(*mesh, |mesh| WasmMesh3(mesh).into())),
     };
     Ok(triangulator.deliver3d(coordinates.points()?, read.is_none(), moved, deliver).await?)
 }

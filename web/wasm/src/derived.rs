@@ -528,7 +528,7 @@ where
         ("facets", Uint32Array::new_from_slice(facets.as_flattened()).into()),
         ("neighborOffsets", offsets(&neighbors.offsets)),
         ("neighbors", Uint32Array::new_from_slice(&neighbors.indices).into()),
-        ("simplexOf", signed(&task.mesh.vertex_simplex()).into()),
+        ("vertexSimplex", signed(&task.mesh.vertex_simplex()).into()),
     ]))
 }
 

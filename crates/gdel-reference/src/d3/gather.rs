@@ -1,6 +1,6 @@
 //! Gathering tetrahedra of the mesh, and writing changed ones back.
 
-use gdel::internals::d3::splay::{Gathered, INCIDENT_SHIFT, KEEP, Patch};
+use gdel::internals::d3::splay::{Gathered, KEEP, NAMED_SHIFT, Patch};
 
 /// The mesh at the end of Phase 1, and which of its tetrahedra have been gathered.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -14,7 +14,7 @@ pub struct Mesh {
     /// A bit per point.
     pub wanted: Vec<u32>,
     /// One more than the tetrahedron of each point, a ghost if it has any; infinity comes last.
-    pub tet_of: Vec<u32>,
+    pub vertex_simplex: Vec<u32>,
     /// The number of each tetrahedron that was gathered, or 0.
     pub region_numbers: Vec<u32>,
 }
@@ -24,13 +24,13 @@ impl Mesh {
     pub fn new(tetrahedra: Vec<[u32; 4]>, neighbors: Vec<[u32; 4]>, infinite: u32) -> Self {
         let region_numbers = vec![0; tetrahedra.len()];
         let wanted = vec![0; (infinite as usize).div_ceil(32).max(1)];
-        let mut tet_of = vec![0; infinite as usize + 1];
+        let mut vertex_simplex = vec![0; infinite as usize + 1];
         let (ghosts, finite): (Vec<u32>, _) =
             (0..tetrahedra.len() as u32).partition(|&t| tetrahedra[t as usize].contains(&infinite));
         for t in finite.into_iter().chain(ghosts) {
-            tetrahedra[t as usize].iter().for_each(|&v| tet_of[v as usize] = t + 1);
+            tetrahedra[t as usize].iter().for_each(|&v| vertex_simplex[v as usize] = t + 1);
         }
-        Mesh { tetrahedra, neighbors, infinite, wanted, tet_of, region_numbers }
+        Mesh { tetrahedra, neighbors, infinite, wanted, vertex_simplex, region_numbers }
     }
 
     /// Gathers the tetrahedra at `vertices` that were not gathered before, numbered from `first` on.
@@ -62,14 +62,14 @@ pub fn gather_list(mesh: &mut Mesh, first: u32) -> Vec<u32> {
 /// for which of its vertices each is the tetrahedron of the vertex. One invocation per tetrahedron.
 pub fn gather_copy(mesh: &Mesh, slots: Vec<u32>) -> Gathered {
     let renumbered = |across: u32| 4 * mesh.region_numbers[across as usize / 4] + across % 4;
-    let incident = |t: u32| -> u32 {
+    let named = |t: u32| -> u32 {
         let vertices = (0..).zip(mesh.tetrahedra[t as usize]);
-        vertices.filter(|&(_, v)| mesh.tet_of[v as usize] == t + 1).map(|(k, _)| 1 << k).sum()
+        vertices.filter(|&(_, v)| mesh.vertex_simplex[v as usize] == t + 1).map(|(k, _)| 1 << k).sum()
     };
     Gathered {
         tetrahedra: slots.iter().map(|&t| mesh.tetrahedra[t as usize]).collect(),
         neighbors: slots.iter().map(|&t| mesh.neighbors[t as usize].map(renumbered)).collect(),
-        slots: slots.into_iter().map(|t| t | incident(t) << INCIDENT_SHIFT).collect(),
+        slots: slots.into_iter().map(|t| t | named(t) << NAMED_SHIFT).collect(),
     }
 }
 
