@@ -73,7 +73,7 @@ fn every_way_to_the_host_gives_the_same_mesh() {
 #[test]
 fn tiny_inputs() {
     let mut engine = open();
-    for n in 5..=50 {
+    for n in (5..=50).step_by(3) {
         let inputs = [
             generate3d(Distribution3::Uniform, n, 7),
             clouds::shuffled(&clouds::grid(4), n as u64)[..n.max(20)].to_vec(),
@@ -84,10 +84,10 @@ fn tiny_inputs() {
     }
 }
 
-/// The arrays come in several pieces.
+/// Each array is a piece of its own, or comes in several.
 #[test]
-fn ninety_thousand_points() {
-    let points = generate3d(Distribution3::Uniform, 90_000, 1);
+fn arrays_in_pieces() {
+    let points = generate3d(Distribution3::Uniform, 20_000, 1);
     for settings in [gathering(), beside()] {
         let mut engine = open();
         let mesh = run(&mut engine, &points, settings);
@@ -103,6 +103,8 @@ fn ninety_thousand_points() {
         assert_eq!(result.map(|_| ()), Err(Error::Cancelled));
         same(&points, &run(&mut engine, &points, settings));
     }
+    let points = generate3d(Distribution3::Uniform, 90_000, 1);
+    same(&points, &run(&mut open(), &points, beside()));
 }
 
 /// Progress is reported in the calling thread, whichever thread splays.
