@@ -24,7 +24,7 @@ pub enum Backend {
     /// CPU; also the CPU when the GPU fails. [`Stats::fallback`](crate::stats::Stats::fallback)
     /// then gives the reason.
     ///
-    /// A GPU is worth it from 24,000 points on in 3D and from 30,000 on in 2D. It is opened once
+    /// A GPU is worth it from 6,000 points on in 3D and from 30,000 on in 2D. It is opened once
     /// the inputs of that size would have made up for the time that opening takes: 100,000 points
     /// in 3D, 560,000 in 2D.
     #[default]

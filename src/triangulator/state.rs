@@ -15,12 +15,11 @@ use crate::{
 
 /// The number of points in 3D from which on [`Backend::Auto`](crate::Backend::Auto) takes the GPU engine if it is open.
 ///
-/// A bound, measured on one NVIDIA H200
-/// and one core of the Xeon beside it, 2026-11-21: the GPU engine takes 27 ms for 100,000 uniform
-/// points, and never more for fewer; the CPU engine takes at least 2.0 µs per point, so it is no
-/// faster from 14,000 points on. The rest is for devices that take longer to start. Against 4 and
-/// against 16 threads the GPU is faster from 2,000 points on, 2026-11-24: 4.6 against 7 ms.
-pub const MIN_POINTS_3D: usize = 24_000;
+/// A bound, measured on one NVIDIA H200 and the Xeon beside it: the GPU engine takes 4.2 ms for 10,000 uniform points, and
+/// 15 in Chromium (2026-11-28), hardly less for fewer. The CPU engine takes at least 2.0 µs per point with one thread, and
+/// 4.2 in Chromium; with 4 and with 16 threads it takes longer than the GPU from 2,000 points on (2026-11-24). The rest is
+/// for devices that take longer to start.
+pub const MIN_POINTS_3D: usize = 6_000;
 
 /// The number of points in 3D that the CPU engine triangulates in the time that it takes to open
 /// the GPU and compile its kernels: 188 and 74 ms on the same machine, against 245 ms for 100,000

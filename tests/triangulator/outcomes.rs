@@ -336,7 +336,7 @@ fn rasters_and_full_grids_are_not_left_to_the_cpu() {
 #[test]
 fn auto_goes_on_without_a_gpu_that_is_too_small() {
     let engines = Triangulator::from_gpu(device_with_small_buffers(1 << 20));
-    let points = generate3d(Distribution3::Uniform, MIN_POINTS_3D, 3);
+    let points = generate3d(Distribution3::Uniform, 24_000, 3);
     let mesh = engines.delaunay3d(&points).expect("the CPU engine goes on");
     assert!(matches!(mesh.stats.fallback, Some(Fallback::GpuFailed(Error::BufferTooLarge { .. }))));
     same(&points, &mesh);
