@@ -124,17 +124,10 @@ with_fields! {
         /// The number of stars that were made convex: those of failed vertices, and some that had
         /// flat or inverted tetrahedra.
         pub built: usize,
-        /// How many of these were built from their points because Flip-Flop could not start or was
-        /// stuck.
-        pub from_points: usize,
         /// The number of stars that were taken from the triangulation unchanged.
         pub pulled: usize,
         /// The number of Flip-Flop's flips.
         pub flips: usize,
-        /// The number of insertions of points into stars.
-        pub insertions: usize,
-        /// The number of checks whether all stars agree about a tetrahedron.
-        pub checks: usize,
         /// The number of tetrahedra that were removed from the triangulation.
         pub removed: usize,
         /// The number of tetrahedra that were added to it.

@@ -117,18 +117,10 @@ export interface SplayStats {
    * inverted tetrahedra.
    */
   built: number;
-  /**
-   * How many of these were built from their points because Flip-Flop could not start or was stuck.
-   */
-  fromPoints: number;
   /** The number of stars that were taken from the triangulation unchanged. */
   pulled: number;
   /** The number of Flip-Flop's flips. */
   flips: number;
-  /** The number of insertions of points into stars. */
-  insertions: number;
-  /** The number of checks whether all stars agree about a tetrahedron. */
-  checks: number;
   /** The number of tetrahedra that were removed from the triangulation. */
   removed: number;
   /** The number of tetrahedra that were added to it. */

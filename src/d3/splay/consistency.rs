@@ -79,7 +79,6 @@ struct BatchResult {
     /// The stars that are new.
     stars: Vec<(Star, Origin)>,
     entries: Entries,
-    insertions: usize,
 }
 
 impl Splaying {
@@ -144,7 +143,6 @@ impl Splaying {
         while !self.unsettled.is_empty() {
             if self.requests.is_empty() {
                 self.stats.rounds += 1;
-                self.stats.checks += self.unsettled.len();
                 self.requests = self.requests(predicates)?;
                 let wanted = self.requests.chunk_by(|r, s| r.vertex == s.vertex).map(|requests| requests[0].vertex);
                 let lacking = self.known.region.lacking(wanted);
@@ -192,7 +190,7 @@ impl Splaying {
                     lists.entries.clear();
                     let star = |&v: &u32| self.known.convex_star(predicates, lists, v);
                     let stars = vertices[range].iter().map(star).collect::<Result<Vec<_>, _>>()?;
-                    Ok(BatchResult { stars, entries: Ledger::sorted(&lists.entries), insertions: 0 })
+                    Ok(BatchResult { stars, entries: Ledger::sorted(&lists.entries) })
                 })
             });
         results.into_iter().collect()
@@ -203,7 +201,6 @@ impl Splaying {
     fn adopt(&mut self, results: Vec<BatchResult>) -> Result<(), Aborted> {
         let (mut new, mut entries) = (Vec::with_capacity(results.len()), Vec::with_capacity(results.len()));
         for result in results {
-            self.stats.insertions += result.insertions;
             new.push(result.stars);
             entries.push(result.entries);
         }
@@ -217,7 +214,7 @@ impl Splaying {
                 match origin {
                     Origin::Pulled => stats.pulled += 1,
                     Origin::Flipped(flips) => stats.flips += flips,
-                    Origin::FromPoints => stats.from_points += 1,
+                    Origin::FromPoints => {}
                 }
                 stats.built += usize::from(origin != Origin::Pulled);
                 star_of.insert(star.vertex, stars.len() as u32);
@@ -287,32 +284,32 @@ impl Splaying {
             predicates.shared(self.threads, requests.len(), star_grain(requests.len()), |predicates, range| {
                 self.lists.with(|lists| {
                     lists.entries.clear();
-                    let (mut stars, mut insertions) = (Vec::new(), 0);
+                    let mut stars = Vec::new();
                     for requests in &requests[range] {
                         let v = requests[0].vertex;
                         match self.star(v) {
-                            Some(mut star) => insertions += self.widen(predicates, &mut star, requests, lists)?,
+                            Some(mut star) => self.widen(predicates, &mut star, requests, lists)?,
                             None => {
                                 let (mut star, origin) = self.known.convex_star(predicates, lists, v)?;
-                                insertions += self.widen(predicates, &mut star, requests, lists)?;
+                                self.widen(predicates, &mut star, requests, lists)?;
                                 stars.push((star, origin));
                             }
                         }
                     }
-                    Ok(BatchResult { stars, entries: Ledger::sorted(&lists.entries), insertions })
+                    Ok(BatchResult { stars, entries: Ledger::sorted(&lists.entries) })
                 })
             });
         results.into_iter().collect()
     }
 
-    /// Carries out the requests to a star. Returns the number of points that were inserted.
+    /// Carries out the requests to a star.
     fn widen(
         &self,
         predicates: &StarPredicates<'_>,
         star: &mut Star,
         requests: &[Request],
         lists: &mut Lists,
-    ) -> Result<usize, Aborted> {
+    ) -> Result<(), Aborted> {
         let Lists { changes, entries, points, .. } = lists;
         // Each point is the upper half, and the place of its request the lower half.
         points.clear();
@@ -330,16 +327,14 @@ impl Splaying {
         parallel::sort_keyed(Threads::One, points);
         points.dedup_by_key(|&mut entry| entry >> 32);
         points.retain(|&entry| !star.has((entry >> 32) as u32));
-        let mut insertions = 0;
         for &entry in points.iter() {
             let tetrahedron = self.unsettled[requests[entry as u32 as usize].tetrahedron as usize];
             if star.insert_near(predicates, (entry >> 32) as u32, tetrahedron, changes)? {
-                insertions += 1;
                 entries.extend(Entry::changes(star, &changes.removed, &changes.added));
             }
         }
         let tried = requests.iter().filter(|request| request.witness == NONE);
         entries.extend(tried.map(|request| Entry::tried(self.unsettled[request.tetrahedron as usize], star.vertex)));
-        Ok(insertions)
+        Ok(())
     }
 }
