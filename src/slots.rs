@@ -107,8 +107,8 @@ macro_rules! slots_of_arrays {
 }
 pub(crate) use slots_of_arrays;
 
-/// What cavities of more than two dimensions need in addition: their simplices are marked, their
-/// vertices numbered, and not all their slots filled again.
+/// Slots with the marks and tables that 3D cavities need: their simplices are marked, their
+/// vertices are numbered, and some of their slots stay empty.
 pub trait MarkedSlots<const N: usize>: Slots<N> {
     /// A table of numbers below 64, one per vertex.
     type Places: Places;

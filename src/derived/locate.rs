@@ -187,8 +187,8 @@ where
     /// Returns the places of queries of which consecutive ones are near each other; `None` if there
     /// are no simplices.
     ///
-    /// Where a simplex and its vertices are is known only when the walk is there, and they are
-    /// seldom at hand. So several walks take turns, and wait for memory at the same time.
+    /// Each step of a walk waits for memory whose address the step before has read. Several walks
+    /// take turns, so that they wait at the same time.
     pub(super) fn places(&self, queries: &[[f64; D]]) -> Result<Option<Vec<Place>>, Error> {
         let mut places = vec![Place { simplex: 0, beyond: None, on_facet: false }; queries.len()];
         let mut walks = Vec::with_capacity(WALKS);

@@ -25,7 +25,7 @@ use crate::{
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Euclidean;
 
-/// What the geometry of simplices with `N` = `D` + 1 vertices depends on the dimension for.
+/// The geometry of simplices with `N` = `D` + 1 vertices, as far as it depends on the dimension.
 #[doc(hidden)]
 pub trait Geometry<const D: usize, const N: usize>: Copy + Send + Sync + 'static {
     /// The corners of the facet opposite vertex *k* of a positively oriented simplex:
@@ -33,7 +33,7 @@ pub trait Geometry<const D: usize, const N: usize>: Copy + Send + Sync + 'static
     /// left in 2D.
     const FACETS: [[usize; D]; N];
 
-    /// How a mesh numbers the facet opposite vertex *k*.
+    /// The number that a mesh gives to the facet opposite vertex *k*.
     const FACET_NUMBERS: [usize; N];
 
     /// The Hilbert curve.

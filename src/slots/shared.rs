@@ -195,7 +195,7 @@ impl<const N: usize> SharedSlots<N> {
     }
 }
 
-/// What one thread sees of [`SharedSlots`], and what it has claimed.
+/// The view of one thread of [`SharedSlots`], with its claims.
 pub(crate) struct Worker<'a, const N: usize> {
     simplices: &'a [[AtomicU32; N]],
     neighbors: &'a [[AtomicU32; N]],

@@ -137,9 +137,9 @@ pub struct Defect {
     pub tetrahedron: Option<usize>,
     /// The index of the triangle of a 2D mesh that is to blame; `None` where it is not one.
     pub triangle: Option<usize>,
-    /// The index of the point that is to blame; `None` where it is not one.
+    /// The index of the point with the defect; `None` if the defect is not that of a point.
     pub point: Option<usize>,
-    /// What is wrong, in words.
+    /// A description of the defect.
     pub detail: String,
 }
 
@@ -305,7 +305,7 @@ pub struct Report {
     pub outcomes: Vec<(Check, Outcome)>,
     /// The affine dimension of the points, 0 to 3.
     pub dimension: u8,
-    /// What the points and the mesh consist of. Where the indices are broken, only points and
+    /// The numbers of points, simplices and their faces. If indices are broken, only points and
     /// simplices are counted.
     pub counts: Counts,
 }

@@ -29,7 +29,7 @@ pub(super) trait Triangulation<const D: usize, const N: usize>:
     fn counts(&self) -> Counts;
 }
 
-/// How many simplices there are.
+/// The number of simplices.
 #[derive(Clone, Copy, Serialize)]
 #[serde(untagged)]
 pub(super) enum Counts {

@@ -12,7 +12,7 @@ use std::{fmt, time::Duration};
 /// The statistics of a run: as JSON by `serde`, for people by `Display`.
 #[derive(Serialize)]
 pub(super) struct Report<'a> {
-    /// Those of the mesh, without the `no_return` of the file.
+    /// The number of points of the mesh, without the `no_return` of the file.
     points: usize,
     /// Points of the file that hold no measurement.
     no_return: usize,
@@ -20,7 +20,7 @@ pub(super) struct Report<'a> {
     ignored_columns: usize,
     duplicates: usize,
     dimension: u8,
-    /// Those that the dimension of the mesh has.
+    /// The numbers of simplices and their faces.
     #[serde(flatten)]
     counts: Counts,
     /// Whether the mesh was proven to be the Delaunay triangulation, where that was requested.

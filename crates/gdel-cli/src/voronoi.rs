@@ -83,7 +83,7 @@ where
     })
 }
 
-/// What is written.
+/// The data of the output.
 enum Derived {
     Arrays(Table),
     Rows(Table),

@@ -1,6 +1,6 @@
 //! The colours of points, from what a file says about each.
 
-/// What the colours of points stand for.
+/// The origin of the colours of points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ColorSource {
     /// Colours that the file has.
@@ -28,15 +28,14 @@ impl ColorSource {
 pub struct PointColors {
     /// Red, green and blue of each point, in sRGB.
     pub rgb: Vec<[u8; 3]>,
-    /// What the colours stand for.
+    /// The origin of the colours.
     pub source: ColorSource,
 }
 
 /// Numbers that a file may have for the colour of a point.
 pub(super) const CHANNELS: usize = 7;
 
-/// Those numbers: red, green, blue; intensity; the three components of a normal. What a point lacks
-/// is NaN.
+/// Red, green, blue, intensity, and the three components of a normal; NaN where a point has none.
 pub(super) type Sample = [f64; CHANNELS];
 
 /// The place of the intensity in a sample.

@@ -27,9 +27,9 @@ impl fmt::Display for Position {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{at}: {}", printable(what))]
 pub struct FormatError {
-    /// Where.
+    /// The position of the error in the file.
     pub at: Position,
-    /// What is wrong there.
+    /// A description of the error.
     pub what: String,
 }
 

@@ -40,7 +40,7 @@ pub enum FileError {
     Format {
         /// The file.
         path: PathBuf,
-        /// Where and why.
+        /// The error and its position.
         source: FormatError,
     },
     /// The extension is not that of a suitable format.
@@ -48,7 +48,7 @@ pub enum FileError {
     Extension {
         /// The file.
         path: PathBuf,
-        /// What should have been read or written.
+        /// A description of the files with suitable extensions.
         what: &'static str,
         /// The suitable extensions.
         known: String,
@@ -69,7 +69,7 @@ pub enum FileError {
     Exists {
         /// The output.
         path: PathBuf,
-        /// What could be replaced.
+        /// A description of the files that are replaced without `--force`.
         what: String,
     },
 }

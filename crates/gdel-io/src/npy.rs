@@ -8,7 +8,7 @@ use crate::{FormatError, PointBuf, PointCloud, error::quote};
 use gdel::Points;
 use std::io::{self, Write};
 
-/// What an array's header says, and its data.
+/// The header of an array, and its data.
 pub(super) struct Array<'a> {
     big_endian: bool,
     /// `f`, `i` or `u`.
@@ -17,7 +17,7 @@ pub(super) struct Array<'a> {
     size: usize,
     shape: Vec<usize>,
     fortran_order: bool,
-    /// Where the data starts in the file.
+    /// The offset of the data in the file, in bytes.
     offset: usize,
     data: &'a [u8],
 }

@@ -45,7 +45,7 @@ struct Element {
 struct Header {
     encoding: Encoding,
     elements: Vec<Element>,
-    /// Where the data starts.
+    /// The offset of the data, in bytes.
     offset: usize,
 }
 

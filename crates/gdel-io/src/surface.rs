@@ -13,7 +13,7 @@ pub(super) struct Surface<'a, const D: usize> {
     triangles: Cow<'a, [[u32; 3]]>,
     /// The points that are vertices, ascending.
     used: Vec<u32>,
-    /// What it is, in printable ASCII without quotation marks or backslashes.
+    /// The title of the surface, in printable ASCII without quotation marks or backslashes.
     pub(super) name: &'static str,
 }
 

@@ -143,7 +143,7 @@ impl CellShape {
 pub struct Grid {
     /// The vertices; 2D points have *z* = 0.
     pub points: Vec<[f64; 3]>,
-    /// What the cells are.
+    /// The shape of the cells.
     pub shape: CellShape,
     /// One row per cell. Lists are left out.
     pub values: Table,

@@ -18,7 +18,8 @@ use crate::{
 #[derive(Debug, Clone, Default)]
 pub struct Edges {
     pub(super) edges: Vec<[u32; 2]>,
-    /// Of the smallest sphere through both vertices; infinite if that contains another vertex.
+    /// The squared radius of the smallest sphere through both vertices; infinite if the sphere
+    /// contains another vertex.
     pub(super) own: Vec<f64>,
     pub(super) regular: Vec<f64>,
     pub(super) interior: Vec<f64>,

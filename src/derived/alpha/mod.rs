@@ -68,17 +68,17 @@ use values::Radii;
 /// ```
 #[derive(Debug)]
 pub struct AlphaShape<const D: usize = 3, const N: usize = 4> {
-    /// The mesh, sorted, as the lists below are.
+    /// The sorted mesh. The lists below have its order.
     radii: Radii<D, N>,
-    /// The squared circumradius of each simplex, scaled, NaN if it is not known. The same for the
-    /// others.
+    /// The scaled square of the circumradius of each simplex; NaN if it is not known. The radii
+    /// below have the same form.
     simplices: Vec<f64>,
-    /// Of each facet, listed with the simplex of the lower index, that of its smallest sphere;
-    /// infinite if that contains another vertex.
+    /// The radius of the smallest sphere of each facet; infinite if the sphere contains another
+    /// vertex. A facet is listed with the simplex of the lower index.
     facets: Vec<f64>,
-    /// Once they have been asked for.
+    /// The edges, computed at the first request.
     edges: OnceLock<Edges>,
-    /// Those from which on each vertex is regular, and interior, once they have been asked for.
+    /// The radii from which on each vertex is regular, and interior, computed at the first request.
     vertices: OnceLock<Vec<[f64; 2]>>,
     /// The simplices in groups of exactly the same circumradius, in ascending order.
     groups: OnceLock<Groups>,

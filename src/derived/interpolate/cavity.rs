@@ -7,9 +7,9 @@ use crate::geometry::{real::Real, vector};
 #[derive(Debug)]
 pub struct Cavity<T, const D: usize> {
     pub(super) vertices: Vec<Vertex<T, D>>,
-    /// Those between two simplices once, and those around the cavity.
+    /// The facets between two simplices of the cavity, once each, and those of its boundary.
     pub(super) facets: Vec<CavityFacet<T, D>>,
-    /// The sum of what rounding is relative to in `stolen`: products of lengths.
+    /// A bound of the sum of the terms of all `stolen`: their rounding errors are relative to it.
     pub(super) magnitude: f64,
 }
 
@@ -17,11 +17,11 @@ pub struct Cavity<T, const D: usize> {
 pub struct Vertex<T, const D: usize> {
     pub(super) index: u32,
     pub(super) position: [T; D],
-    /// What the point's cell takes from that of the vertex.
+    /// The volume that the cell of the point takes from the cell of the vertex; in 2D the area.
     pub(super) stolen: T,
     /// The pyramid (in 2D: triangle) over the facet between both cells, with its apex at the point.
     pub(super) pyramid: T,
-    /// What rounding is relative to in `pyramid`.
+    /// A bound of the terms of `pyramid`: its rounding error is relative to it.
     pub(super) pyramid_magnitude: f64,
 }
 

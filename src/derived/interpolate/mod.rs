@@ -194,7 +194,7 @@ where
     }
 }
 
-/// What the interpolation at a point leaves to that at the next one.
+/// Memory that is used again from one point to the next.
 struct State<const D: usize> {
     scratch: Scratch<D>,
     weights: Vec<(u32, f64)>,

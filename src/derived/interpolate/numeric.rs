@@ -1,4 +1,4 @@
-//! What the weights are computed with: vectors of [`Real`] numbers, and the error that is allowed.
+//! Arithmetic of the weights: vectors of [`Real`] numbers, and the error that is allowed.
 
 use crate::{
     geometry::{real::Real, vector},

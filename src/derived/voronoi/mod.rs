@@ -564,7 +564,7 @@ impl<const D: usize, const N: usize, P: Default> Default for Worker<D, N, P> {
     }
 }
 
-/// What the cells of a few points are made from.
+/// The input of the cells of a few points.
 #[derive(Debug, Default)]
 struct Block<const D: usize, const N: usize> {
     sites: Vec<[f64; D]>,

@@ -1,4 +1,4 @@
-//! What differs between the dimensions in Voronoi cells.
+//! The parts of Voronoi cells that depend on the dimension.
 
 use super::{
     super::complex::Complex,
@@ -25,7 +25,7 @@ pub struct FacetMeasures<const D: usize> {
 /// The vertices of a simplex and its neighbours.
 pub type Row<const N: usize> = ([u32; N], [u32; N]);
 
-/// What differs between the dimensions in Voronoi cells.
+/// The parts of Voronoi cells that depend on the dimension.
 #[doc(hidden)]
 pub trait VoronoiShapes<const D: usize, const N: usize>: Geometry<D, N> {
     /// The shape of a cell while it is clipped.

@@ -32,19 +32,19 @@ const SAME_SHARE: u32 = 16;
 /// The flip iterations of a run.
 #[derive(Debug)]
 pub(crate) struct Iterations {
-    /// Those of a round of which nothing is known.
+    /// The iterations of a round without a predecessor.
     first: u32,
-    /// Those of the next round, by the rounds before it.
+    /// The iterations of the next round, by the rounds before it.
     planned: u32,
-    /// Exact checks follow the filter in every so many iterations of a round.
+    /// The period of exact checks after the filter, in iterations.
     exact_every: u32,
-    /// What this run has needed so far.
+    /// The iterations used by this run so far.
     needed: Needed,
-    /// What the run before needed, as long as this one repeats it.
+    /// The iterations used by the last run, as long as this run repeats it.
     before: Needed,
 }
 
-/// What a run needed, for the next one of as many points, which lie alike as a rule.
+/// The iterations used by a run. The next run of equal size plans with them.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Needed {
     /// The number of points.

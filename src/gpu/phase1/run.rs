@@ -35,7 +35,7 @@ where
     pub(super) first: StartSimplex<D>,
     pub(super) start: StartMesh,
     pub(super) plan: Plan,
-    /// What the run before that inserted as many points needed.
+    /// The iterations used by the last run of equal size.
     pub(super) before: Needed,
     /// Batches of rounds whose counters are not read yet, oldest first.
     pub(super) submitted: VecDeque<Submitted>,

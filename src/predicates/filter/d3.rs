@@ -54,7 +54,7 @@ pub(crate) struct Rows {
     rows: [Cell<[f64; 4]>; PLACES],
 }
 
-/// How many rows there is room for, more than most stars have vertices; a power of two.
+/// The number of rows that are stored: a power of two, larger than most stars.
 const PLACES: usize = 128;
 
 impl Rows {
@@ -146,8 +146,8 @@ impl PredicatesAt<'_, '_, 3> {
     /// Returns the value of the determinant of [`insphere`](Self::insphere) from the rows of a, b and
     /// c, and whether its sign is certain. The value is NaN if a row is missing.
     ///
-    /// Where many spheres are tested for one point, rows that are computed once make a test take
-    /// half of the instructions.
+    /// Computing the rows once halves the instructions of a test when many spheres are tested for
+    /// one point.
     #[inline(always)]
     pub(crate) fn insphere_of_rows(&self, [a, b, c]: [&Row; 3], d: u32) -> (f64, bool) {
         let Some(&p) = self.stored.get(d as usize) else { return (f64::NAN, false) };

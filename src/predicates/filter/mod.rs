@@ -80,7 +80,7 @@ pub(crate) struct PredicatesAt<'c, 'a, const D: usize> {
     vertex: u32,
     /// The coordinates of all vertices; empty if they are computed each time.
     stored: &'c [[f64; D]],
-    /// Those of the vertex if they are stored.
+    /// The coordinates of the vertex if they are stored.
     place: [f64; D],
 }
 
@@ -99,12 +99,12 @@ enum ExactStage<const D: usize> {
     Wide(Wide<D>),
 }
 
-/// What is known of the vertices on a wide lattice.
+/// The vertices on a wide lattice.
 #[derive(Clone, Default)]
 struct Wide<const D: usize> {
-    /// Whether a vertex is rounded; empty if this and its position are computed each time.
+    /// Whether each vertex is rounded; empty if that is computed each time.
     rounded: Arc<Vec<bool>>,
-    /// Where the lattice is not that of the input.
+    /// The positions on a stretched lattice, if the lattice is stretched.
     stretched: Option<Stretched<D>>,
 }
 
@@ -112,7 +112,7 @@ struct Wide<const D: usize> {
 #[derive(Clone)]
 struct Stretched<const D: usize> {
     positions: Arc<Vec<[i64; D]>>,
-    /// Those of the lattice.
+    /// The shift of each axis of the lattice.
     shifts: [u32; D],
 }
 
