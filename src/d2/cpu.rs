@@ -90,7 +90,7 @@ impl Grow<2> for Triangulation2 {
         let Triangulation2 { triangles, neighbors, infinite } = self;
         let room = infinite as usize * Self::SIMPLICES_PER_POINT;
         let workers = parallel::count(run.threads);
-        let mut slots = SharedSlots::new(&triangles, &neighbors, Vec::new(), infinite, room, MAX_TRIANGLES, workers)?;
+        let mut slots = SharedSlots::new([&triangles, &neighbors], Vec::new(), infinite, room, MAX_TRIANGLES, workers)?;
         drop((triangles, neighbors));
         let left = insert_by_workers(&mut slots, run)?;
         let (triangles, neighbors) = slots.into_arrays();

@@ -100,7 +100,7 @@ impl Grow<3> for Triangulation3 {
         // Room that is not used takes no memory, and to make more the workers have to stop.
         let room = infinite as usize * (Self::SIMPLICES_PER_POINT + 1);
         let workers = parallel::count(run.threads);
-        let mut slots = SharedSlots::new(&tetrahedra, &neighbors, unused, infinite, room, MAX_TETRAHEDRA, workers)?;
+        let mut slots = SharedSlots::new([&tetrahedra, &neighbors], unused, infinite, room, MAX_TETRAHEDRA, workers)?;
         drop((tetrahedra, neighbors));
         let left = insert_by_workers(&mut slots, run)?;
         let (tetrahedra, neighbors) = slots.into_arrays();

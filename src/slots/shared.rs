@@ -86,8 +86,7 @@ impl<const N: usize> SharedSlots<N> {
     ///
     /// Returns [`Error::OutOfMemory`].
     pub(crate) fn new(
-        simplices: &[[u32; N]],
-        neighbors: &[[u32; N]],
+        [simplices, neighbors]: [&[[u32; N]]; 2],
         unused: Vec<u32>,
         infinite: u32,
         room: usize,

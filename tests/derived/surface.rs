@@ -131,7 +131,7 @@ fn check<const D: usize, const N: usize>(mesh: &impl Mesh<D, N>, points: &[[f64;
         let terms: Vec<f64> = facets.iter().map(|f| determinant(&f.iter().map(relative).collect::<Vec<_>>())).collect();
         let sum = terms.iter().sum::<f64>() / if D == 3 { 6.0 } else { 2.0 };
         let size: f64 = terms.iter().map(|term| term.abs()).sum();
-        let extent = terms.len() as f64 * f64::EPSILON * largest(&vertices, middle).powi(D as i32);
+        let extent = terms.len() as f64 * f64::EPSILON * largest(vertices, middle).powi(D as i32);
         assert!((sum - volume).abs() <= 1e-9 * (volume + size) + extent, "{sum} {volume}");
     }
 
@@ -139,7 +139,7 @@ fn check<const D: usize, const N: usize>(mesh: &impl Mesh<D, N>, points: &[[f64;
     let used: BTreeSet<u32> = sources.iter().copied().collect();
     let solid: BTreeSet<u32> = surface.solid().as_flattened().iter().copied().collect();
     for (i, &side) in (0..).zip(surface.sides()) {
-        let vertex = Some(mesh.duplicate_of()[i as usize]).filter(|&d| d != gdel::NONE).map_or(i, |d| d as u32);
+        let vertex = Some(mesh.duplicate_of()[i as usize]).filter(|&d| d != gdel::NONE).unwrap_or(i);
         let expected = match (used.contains(&vertex), solid.contains(&vertex)) {
             (true, _) => Side::On,
             (_, true) => Side::Inside,

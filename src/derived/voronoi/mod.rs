@@ -370,7 +370,8 @@ where
         let (vertices, rows) = (&block.vertices[range.clone()], &block.rows[range]);
         relative.clear();
         relative.extend(vertices.iter().map(|&vertex| vector::minus(vertex, site)));
-        let mut moment = self.find_facets(i, star, rows, relative, cell, scratch);
+        let around = Around { star, rows, relative };
+        let mut moment = self.find_facets(i, &around, cell, scratch);
         if self.is_whole(i, vertices) {
             cell.vertices.extend_from_slice(vertices);
             cell.simplices.extend(star);
@@ -398,17 +399,9 @@ where
     }
 
     /// Finds the facets of the cell of vertex `v` before it is clipped, as places in its star, and
-    /// their measures. Returns the integral of the coordinates over the cell. `relative` has the
-    /// circumcentres of the star, relative to *v*.
-    fn find_facets(
-        &self,
-        v: u32,
-        star: &[u32],
-        rows: &[Row<N>],
-        relative: &[[f64; D]],
-        cell: &mut Cell<D>,
-        scratch: &mut Star,
-    ) -> [f64; D] {
+    /// their measures. Returns the integral of the coordinates over the cell.
+    fn find_facets(&self, v: u32, around: &Around<'_, D, N>, cell: &mut Cell<D>, scratch: &mut Star) -> [f64; D] {
+        let &Around { star, rows, relative } = around;
         let mut moment = [0.0; D];
         let reach = relative.iter().fold(0.0, |max, &p| vector::squared_norm(p).max(max)).sqrt();
         // Far more than the errors of all these, which are below 2⁻³⁷ times the circumradius, and
@@ -420,8 +413,8 @@ where
         let Cell { facets, neighbors, areas, volume, .. } = cell;
         <Euclidean as VoronoiShapes<D, N>>::push_rings(v, star, rows, scratch, facets, |a, ring, is_closed| {
             let measures = Euclidean::facet_measures(relative, ring);
-            let is_facet = measures.area > tiny * ring.len() as f64
-                || self.is_facet(star, relative, error, ring, is_closed, [v, a]);
+            let is_facet =
+                measures.area > tiny * ring.len() as f64 || self.is_facet(around, error, ring, is_closed, [v, a]);
             if is_facet {
                 neighbors.push(a);
                 areas.push(if is_closed { measures.area } else { f64::INFINITY });
@@ -435,12 +428,10 @@ where
 
     /// Returns whether the facet that is dual to an edge has an area, in 2D a length. It has none
     /// if ties make so many of its vertices coincide that at most two are left, in 2D one.
-    /// `relative` has the circumcentres of the star, relative to *v*.
     #[cold]
     fn is_facet(
         &self,
-        star: &[u32],
-        relative: &[[f64; D]],
+        &Around { star, relative, .. }: &Around<'_, D, N>,
         error: f64,
         ring: &[u32],
         is_closed: bool,
@@ -541,7 +532,17 @@ where
     }
 }
 
-/// Lists that one cell leaves to the next.
+/// The star of a vertex.
+struct Around<'a, const D: usize, const N: usize> {
+    /// The simplices, in ascending order.
+    star: &'a [u32],
+    /// The row of each of them.
+    rows: &'a [Row<N>],
+    /// The circumcentre of each of them, relative to the vertex.
+    relative: &'a [[f64; D]],
+}
+
+/// Memory that is used again from one cell to the next.
 #[derive(Debug)]
 struct Worker<const D: usize, const N: usize, P> {
     block: Block<D, N>,
