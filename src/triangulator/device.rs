@@ -46,6 +46,16 @@ impl DeviceTriangulator {
 
     /// Returns the 3D Delaunay triangulation of `points`. Blocks the thread.
     ///
+    /// # Examples
+    ///
+    /// ```
+    /// use gdel::{DeviceTriangulator, Error};
+    ///
+    /// fn count(device: &DeviceTriangulator, points: &[[f32; 3]]) -> Result<usize, Error> {
+    ///     Ok(device.delaunay3d(points)?.simplex_count())
+    /// }
+    /// ```
+    ///
     /// # Errors
     ///
     /// Returns the errors of [`Triangulator::delaunay3d`], and those of the GPU with every backend.
@@ -55,6 +65,16 @@ impl DeviceTriangulator {
 
     /// Returns the 2D Delaunay triangulation of `points`. Blocks the thread.
     ///
+    /// # Examples
+    ///
+    /// ```
+    /// use gdel::{DeviceTriangulator, Error};
+    ///
+    /// fn count(device: &DeviceTriangulator, points: &[[f32; 2]]) -> Result<usize, Error> {
+    ///     Ok(device.delaunay2d(points)?.simplex_count())
+    /// }
+    /// ```
+    ///
     /// # Errors
     ///
     /// Returns the errors of [`delaunay3d`](Self::delaunay3d).
@@ -63,6 +83,16 @@ impl DeviceTriangulator {
     }
 
     /// Returns the 3D Delaunay triangulation of the points in a buffer. Blocks the thread.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use gdel::{DeviceTriangulator, Error, wgpu};
+    ///
+    /// fn count(device: &DeviceTriangulator, points: &wgpu::Buffer) -> Result<usize, Error> {
+    ///     Ok(device.delaunay3d_from_buffer(points)?.simplex_count())
+    /// }
+    /// ```
     ///
     /// # Errors
     ///
@@ -74,6 +104,16 @@ impl DeviceTriangulator {
 
     /// Returns the 2D Delaunay triangulation of the points in a buffer. Blocks the thread.
     ///
+    /// # Examples
+    ///
+    /// ```
+    /// use gdel::{DeviceTriangulator, Error, wgpu};
+    ///
+    /// fn count(device: &DeviceTriangulator, points: &wgpu::Buffer) -> Result<usize, Error> {
+    ///     Ok(device.delaunay2d_from_buffer(points)?.simplex_count())
+    /// }
+    /// ```
+    ///
     /// # Errors
     ///
     /// Returns the errors of [`delaunay3d_from_buffer`](Self::delaunay3d_from_buffer).
@@ -82,6 +122,16 @@ impl DeviceTriangulator {
     }
 
     /// [Updates](Triangulator::update) a 3D mesh to the points in a buffer. Blocks the thread.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use gdel::{DeviceMesh3, DeviceTriangulator, Error, wgpu};
+    ///
+    /// fn step(device: &DeviceTriangulator, mesh: &mut DeviceMesh3, moved: &wgpu::Buffer) -> Result<(), Error> {
+    ///     device.update3d_from_buffer(mesh, moved)
+    /// }
+    /// ```
     ///
     /// # Errors
     ///
@@ -93,6 +143,16 @@ impl DeviceTriangulator {
 
     /// [Updates](Triangulator::update) a 2D mesh to the points in a buffer. Blocks the thread.
     ///
+    /// # Examples
+    ///
+    /// ```
+    /// use gdel::{DeviceMesh2, DeviceTriangulator, Error, wgpu};
+    ///
+    /// fn step(device: &DeviceTriangulator, mesh: &mut DeviceMesh2, moved: &wgpu::Buffer) -> Result<(), Error> {
+    ///     device.update2d_from_buffer(mesh, moved)
+    /// }
+    /// ```
+    ///
     /// # Errors
     ///
     /// Returns the errors of [`update3d_from_buffer`](Self::update3d_from_buffer).
@@ -101,6 +161,16 @@ impl DeviceTriangulator {
     }
 
     /// Does the same as [`delaunay3d`](Self::delaunay3d) without blocking the thread.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use gdel::{DeviceTriangulator, Error};
+    ///
+    /// async fn count(device: &DeviceTriangulator, points: &[[f32; 3]]) -> Result<usize, Error> {
+    ///     Ok(device.delaunay3d_async(points).await?.simplex_count())
+    /// }
+    /// ```
     ///
     /// # Errors
     ///
@@ -111,6 +181,16 @@ impl DeviceTriangulator {
 
     /// Does the same as [`delaunay2d`](Self::delaunay2d) without blocking the thread.
     ///
+    /// # Examples
+    ///
+    /// ```
+    /// use gdel::{DeviceTriangulator, Error};
+    ///
+    /// async fn count(device: &DeviceTriangulator, points: &[[f32; 2]]) -> Result<usize, Error> {
+    ///     Ok(device.delaunay2d_async(points).await?.simplex_count())
+    /// }
+    /// ```
+    ///
     /// # Errors
     ///
     /// Returns the errors of [`delaunay3d`](Self::delaunay3d).
@@ -120,6 +200,16 @@ impl DeviceTriangulator {
 
     /// Does the same as [`delaunay3d_from_buffer`](Self::delaunay3d_from_buffer) without blocking the
     /// thread.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use gdel::{DeviceTriangulator, Error, wgpu};
+    ///
+    /// async fn count(device: &DeviceTriangulator, points: &wgpu::Buffer) -> Result<usize, Error> {
+    ///     Ok(device.delaunay3d_from_buffer_async(points).await?.simplex_count())
+    /// }
+    /// ```
     ///
     /// # Errors
     ///
@@ -132,6 +222,16 @@ impl DeviceTriangulator {
     /// Does the same as [`delaunay2d_from_buffer`](Self::delaunay2d_from_buffer) without blocking the
     /// thread.
     ///
+    /// # Examples
+    ///
+    /// ```
+    /// use gdel::{DeviceTriangulator, Error, wgpu};
+    ///
+    /// async fn count(device: &DeviceTriangulator, points: &wgpu::Buffer) -> Result<usize, Error> {
+    ///     Ok(device.delaunay2d_from_buffer_async(points).await?.simplex_count())
+    /// }
+    /// ```
+    ///
     /// # Errors
     ///
     /// Returns the errors of [`delaunay3d_from_buffer`](Self::delaunay3d_from_buffer).
@@ -143,6 +243,16 @@ impl DeviceTriangulator {
     /// Does the same as [`update3d_from_buffer`](Self::update3d_from_buffer) without blocking the
     /// thread.
     ///
+    /// # Examples
+    ///
+    /// ```
+    /// use gdel::{DeviceMesh3, DeviceTriangulator, Error, wgpu};
+    ///
+    /// async fn step(device: &DeviceTriangulator, mesh: &mut DeviceMesh3, moved: &wgpu::Buffer) -> Result<(), Error> {
+    ///     device.update3d_from_buffer_async(mesh, moved).await
+    /// }
+    /// ```
+    ///
     /// # Errors
     ///
     /// Returns the errors of [`update3d_from_buffer`](Self::update3d_from_buffer).
@@ -153,6 +263,16 @@ impl DeviceTriangulator {
 
     /// Does the same as [`update2d_from_buffer`](Self::update2d_from_buffer) without blocking the
     /// thread.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use gdel::{DeviceMesh2, DeviceTriangulator, Error, wgpu};
+    ///
+    /// async fn step(device: &DeviceTriangulator, mesh: &mut DeviceMesh2, moved: &wgpu::Buffer) -> Result<(), Error> {
+    ///     device.update2d_from_buffer_async(mesh, moved).await
+    /// }
+    /// ```
     ///
     /// # Errors
     ///
