@@ -67,7 +67,7 @@ pub mod d3 {
     }
 }
 pub mod derived {
-    pub use crate::derived::{AlphaEdges, StolenMeasures, VoronoiShapes};
+    pub use crate::derived::{AlphaEdges, StolenMeasures, SurfaceMesh, VoronoiShapes};
 }
 pub mod dimension {
     pub use crate::dimension::Dimension;

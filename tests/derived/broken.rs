@@ -6,15 +6,15 @@ use gdel::{
     AlphaShape, Clip, Error, Interpolation, Interpolator, Locator, Mesh, Points, SpanningTree, Surface, SurfaceOptions,
     Voronoi,
     internals::{
-        derived::{AlphaEdges, StolenMeasures, VoronoiShapes},
-        geometry::{Euclidean, Geometry},
+        derived::{AlphaEdges, StolenMeasures, SurfaceMesh, VoronoiShapes},
+        geometry::Euclidean,
     },
 };
 
 /// Returns the errors of all that is derived from a mesh and its points.
 fn errors<const D: usize, const N: usize>(mesh: &impl Mesh<D, N>, points: &[[f64; D]]) -> [Option<Error>; 5]
 where
-    Euclidean: Geometry<D, N> + AlphaEdges<D, N> + VoronoiShapes<D, N>,
+    Euclidean: SurfaceMesh<D, N> + AlphaEdges<D, N> + VoronoiShapes<D, N>,
 {
     let points = Points::F64(points);
     [
@@ -28,7 +28,7 @@ where
 
 fn check_errors<const D: usize, const N: usize>(mesh: &impl Mesh<D, N>, points: &[[f64; D]])
 where
-    Euclidean: Geometry<D, N> + AlphaEdges<D, N> + VoronoiShapes<D, N>,
+    Euclidean: SurfaceMesh<D, N> + AlphaEdges<D, N> + VoronoiShapes<D, N>,
 {
     let count = points.len();
     assert_eq!(errors(mesh, points), [None, None, None, None, None]);
@@ -63,7 +63,7 @@ fn points_that_are_not_those_of_the_mesh_are_errors() {
 /// Asks everything of a mesh that is right in its arrays alone.
 fn ask_everything<const D: usize, const N: usize>(mesh: &impl Mesh<D, N>, points: &[[f64; D]])
 where
-    Euclidean: Geometry<D, N> + AlphaEdges<D, N> + VoronoiShapes<D, N> + StolenMeasures<D, N>,
+    Euclidean: SurfaceMesh<D, N> + AlphaEdges<D, N> + VoronoiShapes<D, N> + StolenMeasures<D, N>,
 {
     let queries = queries(points);
     let points = Points::F64(points);

@@ -8,7 +8,8 @@ use gdel::{
     Error, Mesh, Points, Side, Surface, SurfaceOptions,
     internals::{
         d3::generate::{Distribution3, generate3d},
-        geometry::{Euclidean, Geometry},
+        derived::SurfaceMesh,
+        geometry::Euclidean,
     },
 };
 use std::{
@@ -17,7 +18,14 @@ use std::{
 };
 
 fn surface3(points: &[[f64; 3]]) -> Surface {
-    checked(&mesh3(points), points, &SurfaceOptions::default())
+    checked(&mesh3(points), points, &as_they_are())
+}
+
+/// Options with which points are neither dropped nor moved.
+fn as_they_are() -> SurfaceOptions {
+    let mut options = SurfaceOptions::default();
+    (options.drop_isolated, options.smooth) = (false, Some(0));
+    options
 }
 
 /// Finds the surface, and checks what holds for every surface.
@@ -27,7 +35,7 @@ fn checked<const D: usize, const N: usize>(
     options: &SurfaceOptions,
 ) -> Surface<D, N>
 where
-    Euclidean: Geometry<D, N>,
+    Euclidean: SurfaceMesh<D, N>,
 {
     let surface = Surface::new(mesh, Points::F64(points), options).unwrap();
     check(mesh, points, &surface);
@@ -259,7 +267,7 @@ fn inputs_of_all_kinds_have_closed_surfaces() {
     }
     for (name, points) in inputs2() {
         println!("{name}");
-        let surface = checked(&mesh2(&points), &points, &SurfaceOptions::default());
+        let surface = checked(&mesh2(&points), &points, &as_they_are());
         assert_eq!(surface.genus(), 0);
     }
 }
@@ -275,7 +283,7 @@ fn too_few_and_flat_points_have_no_solid() {
         assert_eq!(surface.sides(), vec![Side::Outside; count]);
     }
     let points = [[0.0, 0.0], [1.0, 1.0], [3.0, 3.0]];
-    assert!(checked(&mesh2(&points), &points, &SurfaceOptions::default()).facets().is_empty());
+    assert!(checked(&mesh2(&points), &points, &as_they_are()).facets().is_empty());
     // Four points are the smallest solid.
     let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     assert_eq!(surface3(&points).facets().len(), 4);
@@ -311,7 +319,7 @@ fn specks_are_dropped() {
     assert_eq!((surface.components(), surface.dropped()), (1, [1, 0]));
     assert!(surface.sides()[..2000].iter().all(|&side| side == Side::On));
     assert!(surface.sides()[2000..].iter().all(|&side| side == Side::Outside));
-    let mut options = SurfaceOptions::default();
+    let mut options = as_they_are();
     options.min_part = 0.0;
     let surface = checked(&mesh3(&points), &points, &options);
     assert_eq!((surface.components(), surface.dropped()), (2, [0, 0]));
@@ -333,7 +341,7 @@ fn curves_in_the_plane() {
     };
     let points: Vec<_> =
         circle(200, [0.0; 2], 2.0).chain(circle(100, [0.1, 0.0], 1.0)).chain(circle(50, [4.0, 1.0], 0.7)).collect();
-    let surface = checked(&mesh2(&points), &points, &SurfaceOptions::default());
+    let surface = checked(&mesh2(&points), &points, &as_they_are());
     assert_eq!((surface.components(), surface.facets().len()), (3, 350));
     assert!((surface.volume() / (PI * 3.49) - 1.0).abs() < 0.01, "{}", surface.volume());
     assert!((surface.area() / (TAU * 3.7) - 1.0).abs() < 0.01, "{}", surface.area());
@@ -377,6 +385,42 @@ fn scale_does_not_matter() {
     }
     let singles: Vec<[f32; 3]> = points.iter().map(|p| p.map(|x| x as f32)).collect();
     let doubles: Vec<[f64; 3]> = singles.iter().map(|p| p.map(f64::from)).collect();
-    let single = Surface::new(&gdel::delaunay3d(&singles).unwrap(), &singles, &SurfaceOptions::default()).unwrap();
+    let single = Surface::new(&gdel::delaunay3d(&singles).unwrap(), &singles, &as_they_are()).unwrap();
     assert_eq!(in_space(&single), in_space(&surface3(&doubles)));
+}
+
+#[test]
+fn noise_is_noticed_and_smoothed() {
+    let clean = torus(15_000);
+    let default = SurfaceOptions::default();
+    let surface = checked(&mesh3(&clean), &clean, &default);
+    assert!(surface.noise() < 0.02 && surface.moved_points().is_none(), "{}", surface.noise());
+    // A third of the distance between points, with which the cut alone is empty or in pieces.
+    let points = noisy(&clean, 0.01);
+    let mut options = SurfaceOptions::default();
+    options.drop_isolated = false;
+    let surface = Surface::new(&mesh3(&points), &points, &options).unwrap();
+    let moved = surface.moved_points().expect("there is noise");
+    assert!(surface.noise() > 0.1, "{}", surface.noise());
+    check(&mesh3(moved), moved, &surface);
+    assert_eq!((surface.components(), surface.genus()), (1, 1));
+    assert_volume(&surface, 2.0 * PI * PI * 0.16, 0.02);
+    let distance = |p: &[f64; 3]| (libm::hypot(libm::hypot(p[0], p[1]) - 1.0, p[2]) - 0.4).abs();
+    let mean = |points: &[[f64; 3]]| points.iter().map(distance).sum::<f64>() / points.len() as f64;
+    assert!(mean(moved) < 0.5 * mean(&points), "{} {}", mean(moved), mean(&points));
+}
+
+#[test]
+fn isolated_points_are_dropped() {
+    let mut points = torus(4000);
+    points.extend(random(40, 9).iter().map(|p| p.map(|x| 4.0 * x - 2.0)));
+    points.push(points[0]);
+    let surface = Surface::new(&mesh3(&points), &points, &SurfaceOptions::default()).unwrap();
+    assert!((30..=40).contains(&surface.isolated()), "{}", surface.isolated());
+    assert!(surface.is_closed() && surface.moved_points().is_none());
+    assert_eq!((surface.components(), surface.genus()), (1, 1));
+    assert_volume(&surface, 2.0 * PI * PI * 0.16, 0.03);
+    assert!(surface.sides()[..4000].iter().filter(|&&side| side == Side::On).count() > 3980);
+    assert_eq!(surface.sides()[4040], surface.sides()[0]);
+    assert!(surface.sides()[4000..4040].iter().filter(|&&side| side == Side::Outside).count() >= surface.isolated());
 }

@@ -8,7 +8,7 @@ use super::{
 use clap::Args;
 use gdel::{
     Error, Mesh2, Mesh3, Points, Side, Surface, SurfaceOptions,
-    internals::geometry::{Euclidean, Geometry},
+    internals::{derived::SurfaceMesh, geometry::Euclidean},
 };
 use gdel_io::{CellShape, Grid, PointBuf, SurfaceFormat, files::ResultOutput};
 use std::io;
@@ -21,10 +21,29 @@ pub(super) struct Arguments {
     /// Drop pieces and cavities of less than this share of the largest piece's volume
     #[arg(long, value_name = "SHARE", default_value = "0.01")]
     min_part: f64,
+    /// Keep points that are far from all others
+    #[arg(long)]
+    keep_isolated: bool,
+    /// How often points are moved onto quadrics through their neighbours; `auto` is twice if there is
+    /// noise, else never
+    #[arg(long, value_name = "N", default_value = "auto", value_parser = parse_smooth)]
+    smooth: Smooth,
     /// Where to write: the surface as .stl, .ply, .obj, .glb or .3mf, the tetrahedra of the solid as
     /// .vtu; in 2D, .vtu has the curves, and all others have the triangles between them
     #[arg(short, long = "output", value_name = "FILE", value_parser = parse_output)]
     output: ResultOutput<SolidFormat>,
+}
+
+/// How often points are moved; `None` if noise decides.
+#[derive(Debug, Clone, Copy)]
+struct Smooth(Option<u32>);
+
+fn parse_smooth(text: &str) -> Result<Smooth, String> {
+    match text.parse() {
+        _ if text == "auto" => Ok(Smooth(None)),
+        Ok(times) if times <= 100 => Ok(Smooth(Some(times))),
+        _ => Err("`auto` or a number up to 100 is needed".into()),
+    }
 }
 
 fn parse_output(path: &str) -> Result<ResultOutput<SolidFormat>, String> {
@@ -40,7 +59,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
 
 fn run_in<M: Triangulation<D, N>, const D: usize, const N: usize>(arguments: &Arguments) -> Result<(), Failure>
 where
-    Euclidean: Geometry<D, N>,
+    Euclidean: SurfaceMesh<D, N>,
 {
     let Arguments { common, output, .. } = arguments;
     let input = common.input()?;
@@ -49,6 +68,8 @@ where
     let points = Points::from(&cloud);
     let mut options = SurfaceOptions::default();
     options.min_part = arguments.min_part;
+    options.drop_isolated = !arguments.keep_isolated;
+    options.smooth = arguments.smooth.0;
     let (_, surface) = common.run::<M, D, N, _>(points, "surface", |mesh| find(mesh, points, &options))?;
     match output.format() {
         SolidFormat::Vtu if D == 2 => {
@@ -57,11 +78,13 @@ where
             write(output, |to| grid.write_vtu(to))
         }
         SolidFormat::Vtu => {
+            let points = surface.moved_points().map_or(points, Points::F64);
             let mut grid = Grid::new(points, CellShape::Tetrahedron);
             surface.solid().iter().for_each(|simplex| grid.push(*simplex));
             write(output, |to| grid.write_vtu(to))
         }
         SolidFormat::Surface(format) if D == 2 => {
+            let points = surface.moved_points().map_or(points, Points::F64);
             write(output, |to| write_triangles(format, to, points, surface.solid()))
         }
         SolidFormat::Surface(format) => {
@@ -77,7 +100,7 @@ fn find<M: gdel::Mesh<D, N>, const D: usize, const N: usize>(
     options: &SurfaceOptions,
 ) -> Result<Found<Surface<D, N>>, Error>
 where
-    Euclidean: Geometry<D, N>,
+    Euclidean: SurfaceMesh<D, N>,
 {
     let surface = Surface::new(mesh, points, options)?;
     let count = |side: Side| Number::Count(surface.sides().iter().filter(|&&other| other == side).count());
@@ -98,6 +121,9 @@ where
         ("outside", count(Side::Outside)),
         ("dropped_pieces", Number::Count(pieces)),
         ("filled_cavities", Number::Count(cavities)),
+        ("isolated", Number::Count(surface.isolated())),
+        ("noise", Number::Real(surface.noise())),
+        ("smoothed", Number::Truth(surface.moved_points().is_some())),
     ];
     if D == 3 {
         numbers.insert(5, ("genus", Number::Count(surface.genus())));

@@ -3,6 +3,8 @@
 //! The solid consists of simplices of the Delaunay triangulation, so that its boundary is closed,
 //! oriented and does not intersect itself. Which simplices belong to it is found in these steps:
 //!
+//! 0. `clean`: isolated points are dropped, and where there is noise, points are moved onto local
+//!    quadrics (`outliers`, `quadrics`, `neighbors`), and triangulated again;
 //! 1. `poles`: the circumspheres, and the two farthest circumcentres around each vertex;
 //! 2. `constraints`, `parity`: which poles lie inside and which outside;
 //! 3. `capacity`: what it costs that a facet belongs to the surface;
@@ -12,25 +14,31 @@
 
 mod boundary;
 mod capacity;
+mod clean;
 mod constraints;
 mod cut;
+mod find;
+mod neighbors;
+mod outliers;
 mod parity;
 mod poles;
+mod quadrics;
 mod solid;
 
-use super::{
-    complex::{Complex, Coordinates},
-    sorted::Sorted,
-};
+use super::complex::Complex;
 use crate::{
+    cpu,
+    d2::Mesh2,
+    d3::Mesh3,
     error::Error,
-    geometry::{Euclidean, Geometry, vector},
+    geometry::{Euclidean, Geometry},
     index::NONE,
     input::points::Points,
-    mesh::{Csr, Mesh},
+    mesh::Mesh,
+    options::Options,
 };
-use boundary::Boundary;
-use poles::{Poles, Spheres};
+use clean::Cleaned;
+use find::Prepared;
 
 /// How [`Surface::new`] finds a surface.
 ///
@@ -47,11 +55,18 @@ pub struct SurfaceOptions {
     /// Pieces of the solid and cavities in it are dropped if their volume is less than this share of
     /// the largest piece's; by default 0.01.
     pub min_part: f64,
+    /// Whether isolated points are dropped before the surface is found; by default `true`. They are far
+    /// from all others: their sixth neighbour is more than four times as far away as is usual, and as
+    /// it is around them.
+    pub drop_isolated: bool,
+    /// How often all points are moved onto quadrics through their neighbours before the surface is
+    /// found. By default twice if there is noise, which is estimated, and never else.
+    pub smooth: Option<u32>,
 }
 
 impl Default for SurfaceOptions {
     fn default() -> Self {
-        SurfaceOptions { min_part: 0.01 }
+        SurfaceOptions { min_part: 0.01, drop_isolated: true, smooth: None }
     }
 }
 
@@ -74,7 +89,7 @@ pub enum Side {
     On,
     /// It lies in the solid, but not on the surface.
     Inside,
-    /// It lies outside the solid.
+    /// It lies outside the solid, or was dropped.
     Outside,
 }
 
@@ -125,11 +140,45 @@ pub struct Surface<const D: usize = 3, const N: usize = 4> {
     area: f64,
     components: usize,
     dropped: [usize; 2],
+    isolated: usize,
+    noise: f64,
+    /// All points, if they were moved.
+    moved: Option<Vec<[f64; D]>>,
+}
+
+/// What differs between the dimensions in surfaces.
+#[doc(hidden)]
+pub trait SurfaceMesh<const D: usize, const N: usize>: Geometry<D, N> {
+    /// The mesh that [`Surface::new`] takes, and makes of points that it has moved.
+    type Mesh: Mesh<D, N>;
+
+    /// Triangulates points.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`delaunay3d`](crate::delaunay3d) that are not a GPU's.
+    fn delaunay(points: &[[f64; D]]) -> Result<Self::Mesh, Error>;
+}
+
+impl SurfaceMesh<2, 3> for Euclidean {
+    type Mesh = Mesh2;
+
+    fn delaunay(points: &[[f64; 2]]) -> Result<Mesh2, Error> {
+        cpu::delaunay(Points::F64(points), &Options::default())
+    }
+}
+
+impl SurfaceMesh<3, 4> for Euclidean {
+    type Mesh = Mesh3;
+
+    fn delaunay(points: &[[f64; 3]]) -> Result<Mesh3, Error> {
+        cpu::delaunay(Points::F64(points), &Options::default())
+    }
 }
 
 impl<const D: usize, const N: usize> Surface<D, N>
 where
-    Euclidean: Geometry<D, N>,
+    Euclidean: SurfaceMesh<D, N>,
 {
     /// Finds the surface through the vertices of a mesh with its points.
     ///
@@ -149,44 +198,31 @@ where
         if !(0.0..=1.0).contains(&options.min_part) {
             return Err(Error::BadOption { option: "min_part", range: "a number from 0 to 1" });
         }
-        let given = Complex::new(mesh, points.into())?;
-        if given.simplices.len() > cut::MAX_NODES {
-            return Err(Error::TooManySimplices { limit: cut::MAX_NODES });
+        let points = points.into();
+        let given = Complex::new(mesh, points)?;
+        let prepared = Prepared::new(&given)?;
+        let stars = prepared.stars();
+        let cleaned = Cleaned::new(&prepared, &stars, options);
+        if !cleaned.is_changed() {
+            let surface = prepared.surface(&stars, options, &|point| given.point(point));
+            return Ok(Surface { noise: cleaned.noise, ..surface });
         }
-        let mut mesh = Sorted::new(&given);
-        mesh.arrange_rows();
-        let scale = vector::scale_of(given.bounds());
-        if scale != 1.0
-            && let Coordinates::Owned(points) = &mut mesh.complex.points
-        {
-            points.iter_mut().for_each(|p| *p = vector::times(scale, *p));
+        drop((prepared, stars));
+        let mut moved: Vec<[f64; D]> = points.iter().collect();
+        let working = cleaned.points(points);
+        for (&name, &p) in cleaned.names.iter().zip(&working) {
+            moved[name as usize] = p;
         }
-        let (is_inside, dropped) = solid(&mesh, options);
-        let boundary = Boundary::new(&mesh.complex, &mesh.points, &is_inside);
-        let complex = &mesh.complex;
-        let inside = || (0..is_inside.len()).filter(|&t| is_inside[t]);
-        let mut vertices: Vec<[f64; D]> = boundary.sources.iter().map(|&point| given.point(point)).collect();
-        for &[a, b] in &boundary.middles {
-            let halves = [a, b].map(|v| vector::times(0.5, vertices[v as usize]));
-            vertices.push(vector::plus(halves[0], halves[1]));
+        let mesh = Euclidean::delaunay(&working)?;
+        let complex = Complex::new(&mesh, Points::F64(&working))?;
+        let prepared = Prepared::new(&complex)?.named(&cleaned.names, points.len());
+        let mut surface = prepared.surface(&prepared.stars(), options, &|point| moved[point as usize]);
+        for (i, &vertex) in given.duplicate_of.iter().enumerate().filter(|&(_, &vertex)| vertex != NONE) {
+            surface.sides[i] = surface.sides[vertex as usize];
+            moved[i] = moved[vertex as usize];
         }
-        let components = boundary.components();
-        let mut sources = boundary.sources;
-        let sides = sides(&mesh, &is_inside, &sources);
-        sources.resize(vertices.len(), NONE);
-        // The power of the scale may underflow.
-        let unscaled = |measure: f64, power: usize| (0..power).fold(measure, |measure, _| measure / scale);
-        Ok(Surface {
-            solid: inside().map(|t| mesh.given(complex.simplices[t])).collect(),
-            sides,
-            volume: unscaled(solid::volume(complex, inside()), D),
-            area: unscaled(boundary::area(&boundary.facets, &vertices, scale), D - 1),
-            vertices,
-            components,
-            sources,
-            facets: boundary.facets,
-            dropped,
-        })
+        let moved = (cleaned.passes > 0).then_some(moved);
+        Ok(Surface { noise: cleaned.noise, isolated: cleaned.isolated, moved, ..surface })
     }
 }
 
@@ -209,7 +245,8 @@ impl<const D: usize, const N: usize> Surface<D, N> {
         &self.facets
     }
 
-    /// Returns the simplices of the mesh that are inside, by points.
+    /// Returns the simplices that are inside, by points. They are those of the mesh, unless points were
+    /// dropped or moved.
     pub fn solid(&self) -> &[[u32; N]] {
         &self.solid
     }
@@ -248,52 +285,28 @@ impl<const D: usize, const N: usize> Surface<D, N> {
         self.dropped
     }
 
+    /// Returns how many points were dropped because they are [isolated](SurfaceOptions::drop_isolated).
+    pub fn isolated(&self) -> usize {
+        self.isolated
+    }
+
+    /// Returns the estimate of the noise: the median distance of the points from quadrics through their
+    /// neighbours, in units of the distance between points. It is 0 where it was not needed, as for few
+    /// points.
+    pub fn noise(&self) -> f64 {
+        self.noise
+    }
+
+    /// Returns all points as they were [moved](SurfaceOptions::smooth), to which
+    /// [`solid`](Self::solid) refers; `None` if they were not.
+    pub fn moved_points(&self) -> Option<&[[f64; D]]> {
+        self.moved.as_deref()
+    }
+
     /// Returns whether every edge belongs to exactly two triangles, in opposite directions, and in 2D
     /// every vertex to one edge that ends there and one that starts there. Counts them; by
     /// construction, the result is `true`.
     pub fn is_closed(&self) -> bool {
         boundary::is_closed(&self.facets)
     }
-}
-
-/// Returns where each point lies.
-fn sides<const D: usize, const N: usize>(mesh: &Sorted<D, N>, is_inside: &[bool], vertices: &[u32]) -> Vec<Side> {
-    let complex = &mesh.complex;
-    let mut sides = vec![Side::Outside; mesh.points.len()];
-    for (simplex, _) in complex.simplices.iter().zip(is_inside).filter(|&(_, &is_inside)| is_inside) {
-        simplex.iter().for_each(|&v| sides[mesh.points[v as usize] as usize] = Side::Inside);
-    }
-    vertices.iter().for_each(|&point| sides[point as usize] = Side::On);
-    for (&point, &vertex) in mesh.points.iter().zip(&*complex.duplicate_of) {
-        if vertex != NONE {
-            sides[point as usize] = sides[mesh.points[vertex as usize] as usize];
-        }
-    }
-    sides
-}
-
-/// Returns whether each simplex is inside, and how many pieces and cavities were dropped.
-fn solid<const D: usize, const N: usize>(mesh: &Sorted<D, N>, options: &SurfaceOptions) -> (Vec<bool>, [usize; 2])
-where
-    Euclidean: Geometry<D, N>,
-{
-    let complex = &mesh.complex;
-    let spheres = Spheres::new(complex);
-    let stars = Csr::stars(&complex.simplices, complex.points().len());
-    let poles = Poles::of_all(mesh, &spheres, &stars);
-    let votes = constraints::votes(complex, &spheres, &stars, &poles);
-    let costs = capacity::costs(complex, &spheres);
-    drop((spheres, stars, poles));
-    let excess: Vec<i32> = votes
-        .iter()
-        .zip(&costs)
-        .enumerate()
-        .map(|(t, (&votes, costs))| {
-            let hull = (0..N).filter(|&k| complex.across(t, k).is_none()).map(|k| i32::from(costs[k]));
-            capacity::UNIT * i32::from(votes) - hull.sum::<i32>()
-        })
-        .collect();
-    let mut is_inside = cut::inside(complex, &costs, &excess);
-    let dropped = solid::drop_small(complex, &mut is_inside, options.min_part);
-    (is_inside, dropped)
 }

@@ -1,0 +1,96 @@
+//! Points that are far from all others: dust, reflections and birds.
+
+use super::super::complex::Complex;
+use crate::{
+    geometry::vector,
+    mesh::Csr,
+    parallel::{self, Threads},
+};
+
+/// A point needs so many neighbours, as far as it has so many at all.
+const NEIGHBORS: usize = 6;
+
+/// A point is isolated if its neighbours are so many times farther than is usual.
+const FACTOR: f64 = 4.0;
+
+/// With fewer points, nothing is usual.
+const MIN_POINTS: usize = 100;
+
+/// The number of points by which the usual distance is found.
+const SAMPLES: usize = 2000;
+
+/// The number of points that is worth handing to another thread.
+const GRAIN: usize = 1 << 10;
+
+/// Returns whether each vertex is isolated: farther from its sixth neighbour in the mesh than four times
+/// the median of all vertices, and also than four times the median of its neighbours, so that scans
+/// may become sparse with the distance.
+pub(super) fn isolated<const D: usize, const N: usize>(complex: &Complex<'_, D, N>, stars: &Csr) -> Vec<bool> {
+    let count = complex.points().len() as u32;
+    if stars.len() < MIN_POINTS {
+        return vec![false; count as usize];
+    }
+    let mut samples: Vec<f64> = (0..count)
+        .step_by((count as usize).div_ceil(SAMPLES))
+        .filter(|&v| !stars.of(v).is_empty())
+        .map(|v| reach(complex, stars, v))
+        .collect();
+    let Some(usual) = median(&mut samples) else { return vec![false; count as usize] };
+    let parts = parallel::map_grains(Threads::All, count as usize, GRAIN, |range| {
+        let is_isolated = |v: usize| {
+            let v = v as u32;
+            let limit = FACTOR * FACTOR * usual;
+            if stars.of(v).is_empty() || has_company(complex, stars, v, limit) {
+                return false;
+            }
+            let own = reach(complex, stars, v);
+            let mut others: Vec<f64> = neighbors(complex, stars, v).iter().map(|&w| reach(complex, stars, w)).collect();
+            own > limit && median(&mut others).is_some_and(|around| own > FACTOR * FACTOR * around)
+        };
+        range.map(is_isolated).collect::<Vec<bool>>()
+    });
+    parallel::joined(parts)
+}
+
+/// Returns whether a vertex has enough neighbours within a squared distance, without looking at all.
+fn has_company<const D: usize, const N: usize>(complex: &Complex<'_, D, N>, stars: &Csr, v: u32, limit: f64) -> bool {
+    let point = complex.point(v);
+    let (mut found, mut count) = ([v; NEIGHBORS], 0);
+    for &t in stars.of(v) {
+        for &w in &complex.simplices[t as usize] {
+            let is_new = w != v && !found[..count].contains(&w);
+            if is_new && vector::squared_norm(vector::minus(complex.point(w), point)) <= limit {
+                found[count] = w;
+                count += 1;
+                if count == NEIGHBORS {
+                    return true;
+                }
+            }
+        }
+    }
+    false
+}
+
+/// Returns the vertices that share a simplex with `v`.
+fn neighbors<const D: usize, const N: usize>(complex: &Complex<'_, D, N>, stars: &Csr, v: u32) -> Vec<u32> {
+    let vertices = stars.of(v).iter().flat_map(|&t| complex.simplices[t as usize]);
+    let mut neighbors: Vec<u32> = vertices.filter(|&w| w != v).collect();
+    neighbors.sort_unstable();
+    neighbors.dedup();
+    neighbors
+}
+
+/// Returns the squared distance from a vertex to its sixth neighbour, or the last one.
+fn reach<const D: usize, const N: usize>(complex: &Complex<'_, D, N>, stars: &Csr, v: u32) -> f64 {
+    let point = complex.point(v);
+    let squared = |w: &u32| vector::squared_norm(vector::minus(complex.point(*w), point));
+    let mut distances: Vec<f64> = neighbors(complex, stars, v).iter().map(squared).collect();
+    distances.sort_unstable_by(f64::total_cmp);
+    distances.get(NEIGHBORS - 1).or(distances.last()).copied().unwrap_or(0.0)
+}
+
+/// Returns the median of numbers; `None` if there are none.
+fn median(numbers: &mut [f64]) -> Option<f64> {
+    numbers.sort_unstable_by(f64::total_cmp);
+    numbers.get(numbers.len() / 2).copied()
+}

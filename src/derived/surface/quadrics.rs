@@ -1,0 +1,216 @@
+//! Noise: how far points lie from smooth surfaces through their neighbours, and moving them there.
+//!
+//! Around each point a quadric *z*(*u*, *v*), in 2D a parabola *z*(*u*), is fitted by least squares (the
+//! jets of Cazals and Pouget, *Estimating differential quantities using polynomial fitting of osculating
+//! jets*, 2003). Unlike planes, quadrics do not shrink what is curved.
+
+use super::neighbors::Tree;
+use crate::{
+    geometry::vector,
+    parallel::{self, Threads},
+};
+use std::f64::consts::PI;
+
+/// The number of neighbours, the point included.
+const NEIGHBORS: usize = 40;
+
+/// With fewer points, neighbourhoods are not small.
+pub(super) const MIN_POINTS: usize = 8 * NEIGHBORS;
+
+/// The number of points by which noise is estimated.
+const SAMPLES: usize = 2000;
+
+/// The number of points that is worth handing to another thread.
+const GRAIN: usize = 1 << 9;
+
+/// The coefficients of a quadric: of 1, u, v, u², uv, v².
+const MAX_TERMS: usize = 6;
+
+/// A quadric that was fitted to the neighbours of a point.
+struct Fit<const D: usize> {
+    /// What moves the point onto the quadric.
+    offset: [f64; D],
+    /// The mean distance of the neighbours from the quadric.
+    residual: f64,
+    /// The distance between points that has as many of them in a disk.
+    spacing: f64,
+}
+
+/// Returns the median distance of points from quadrics through their neighbours, in units of the
+/// distance between points.
+pub(super) fn noise<const D: usize>(points: &[[f64; D]]) -> f64 {
+    let tree = Tree::new(points);
+    let step = points.len().div_ceil(SAMPLES);
+    let samples: Vec<u32> = (0..points.len() as u32).step_by(step).collect();
+    let parts = parallel::map_grains(Threads::All, samples.len(), GRAIN, |range| {
+        let mut near = Vec::new();
+        let fits = samples[range].iter().map(|&i| fit(points, &tree, i, &mut near));
+        fits.map(|fit| if fit.spacing > 0.0 { fit.residual / fit.spacing } else { 0.0 }).collect::<Vec<f64>>()
+    });
+    let mut ratios = parallel::joined(parts);
+    ratios.sort_unstable_by(f64::total_cmp);
+    ratios[ratios.len() / 2]
+}
+
+/// Returns the points, each moved onto the quadric through its neighbours.
+pub(super) fn projected<const D: usize>(points: &[[f64; D]]) -> Vec<[f64; D]> {
+    let tree = Tree::new(points);
+    let parts = parallel::map_grains(Threads::All, points.len(), GRAIN, |range| {
+        let mut near = Vec::new();
+        range
+            .map(|i| {
+                let moved = vector::plus(points[i], fit(points, &tree, i as u32, &mut near).offset);
+                if moved.iter().all(|x| x.is_finite()) { moved } else { points[i] }
+            })
+            .collect::<Vec<_>>()
+    });
+    parallel::joined(parts)
+}
+
+/// Fits a quadric to the neighbours of a point. The nearer ones weigh more.
+fn fit<const D: usize>(points: &[[f64; D]], tree: &Tree<'_, D>, i: u32, near: &mut Vec<(f64, u32)>) -> Fit<D> {
+    let point = points[i as usize];
+    tree.nearest(point, NEIGHBORS, near);
+    let radius = near.last().map_or(0.0, |&(squared, _)| squared.sqrt());
+    let mut fit = Fit { offset: [0.0; D], residual: 0.0, spacing: 0.0 };
+    if radius == 0.0 {
+        return fit;
+    }
+    let count = near.len() as f64;
+    fit.spacing = if D == 3 { radius * (PI / count).sqrt() } else { 2.0 * radius / count };
+    // Relative to the point, in units of the radius.
+    let weighted: Vec<([f64; D], f64)> = near
+        .iter()
+        .map(|&(squared, j)| {
+            let q = vector::times(1.0 / radius, vector::minus(points[j as usize], point));
+            (q, libm::exp(-3.0 * squared / (radius * radius)))
+        })
+        .collect();
+    let total: f64 = weighted.iter().map(|(_, weight)| weight).sum();
+    let sum = weighted.iter().fold([0.0; D], |sum, &(q, weight)| vector::plus(sum, vector::times(weight, q)));
+    let center = vector::times(1.0 / total, sum);
+    let mut covariance = [[0.0; D]; D];
+    for &(q, weight) in &weighted {
+        let q = vector::minus(q, center);
+        for (row, x) in covariance.iter_mut().zip(q) {
+            *row = vector::plus(*row, vector::times(weight * x, q));
+        }
+    }
+    // The first axis is the normal.
+    let frame = axes(covariance);
+    let mut system = [[0.0; MAX_TERMS + 1]; MAX_TERMS];
+    for &(q, weight) in &weighted {
+        let local = frame.map(|axis| vector::dot(axis, q));
+        let (terms, count) = terms(local);
+        for a in 0..count {
+            for b in 0..count {
+                system[a][b] += weight * terms[a] * terms[b];
+            }
+            system[a][MAX_TERMS] += weight * terms[a] * local[0];
+        }
+    }
+    let count = terms([0.0; D]).1;
+    let coefficients = solve(system, count);
+    fit.offset = vector::times(radius * coefficients[0], frame[0]);
+    let squares = weighted.iter().map(|&(q, weight)| {
+        let local = frame.map(|axis| vector::dot(axis, q));
+        let height: f64 = terms(local).0.iter().zip(coefficients).map(|(term, c)| term * c).sum();
+        weight * (local[0] - height) * (local[0] - height)
+    });
+    fit.residual = radius * (squares.sum::<f64>() / total).sqrt();
+    fit
+}
+
+/// Returns the products of up to two of all coordinates but the first, and how many there are.
+fn terms<const D: usize>(local: [f64; D]) -> ([f64; MAX_TERMS], usize) {
+    let mut terms = [0.0; MAX_TERMS];
+    terms[0] = 1.0;
+    let mut count = 1;
+    for a in 1..D {
+        terms[count] = local[a];
+        count += 1;
+    }
+    for a in 1..D {
+        for b in a..D {
+            terms[count] = local[a] * local[b];
+            count += 1;
+        }
+    }
+    (terms, count)
+}
+
+/// Returns the eigenvectors of a symmetric matrix by ascending eigenvalues, by Jacobi's rotations.
+fn axes<const D: usize>(mut matrix: [[f64; D]; D]) -> [[f64; D]; D] {
+    let mut vectors: [[f64; D]; D] = std::array::from_fn(|i| std::array::from_fn(|j| f64::from(u8::from(i == j))));
+    // Each sweep squares what is left beside the diagonal.
+    for _ in 0..12 {
+        for p in 0..D {
+            for q in p + 1..D {
+                if matrix[p][q] == 0.0 {
+                    continue;
+                }
+                let theta = (matrix[q][q] - matrix[p][p]) / (2.0 * matrix[p][q]);
+                let tangent = theta.signum() / (theta.abs() + (theta * theta + 1.0).sqrt());
+                let cosine = 1.0 / (tangent * tangent + 1.0).sqrt();
+                let sine = tangent * cosine;
+                let turned = |x: f64, y: f64| (cosine * x - sine * y, sine * x + cosine * y);
+                for row in &mut matrix {
+                    (row[p], row[q]) = turned(row[p], row[q]);
+                }
+                for k in 0..D {
+                    (matrix[p][k], matrix[q][k]) = turned(matrix[p][k], matrix[q][k]);
+                    (vectors[p][k], vectors[q][k]) = turned(vectors[p][k], vectors[q][k]);
+                }
+            }
+        }
+    }
+    let mut order: [usize; D] = std::array::from_fn(|i| i);
+    order.sort_by(|&i, &j| matrix[i][i].total_cmp(&matrix[j][j]));
+    order.map(|i| vectors[i])
+}
+
+/// Solves `count` linear equations, whose right sides are in the last column, by elimination.
+fn solve(mut system: [[f64; MAX_TERMS + 1]; MAX_TERMS], count: usize) -> [f64; MAX_TERMS] {
+    // Neighbours on a line, as a scanner has them, leave terms open.
+    for (i, row) in system.iter_mut().enumerate() {
+        row[i] += 1e-9;
+    }
+    for column in 0..count {
+        let size = |row: usize| system[row][column].abs();
+        let pivot = (column..count).fold(column, |best, row| if size(row) > size(best) { row } else { best });
+        system.swap(column, pivot);
+        for row in column + 1..count {
+            let factor = system[row][column] / system[column][column];
+            let from = system[column];
+            system[row].iter_mut().zip(from).for_each(|(x, y)| *x -= factor * y);
+        }
+    }
+    let mut solution = [0.0; MAX_TERMS];
+    for row in (0..count).rev() {
+        let known: f64 = (row + 1..count).map(|k| system[row][k] * solution[k]).sum();
+        solution[row] = (system[row][MAX_TERMS] - known) / system[row][row];
+    }
+    solution
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_of_a_quadric_stay_and_others_move_there() {
+        let height = |x: f64, y: f64| 0.3 * x * x - 0.2 * x * y + 0.1 * y * y + 0.5 * x;
+        let mut points: Vec<[f64; 3]> = (0..400)
+            .map(|i| [f64::from(i % 20) * 0.05, f64::from(i / 20) * 0.05])
+            .map(|[x, y]| [x, y, height(x, y)])
+            .collect();
+        assert!(noise(&points) < 0.01);
+        let before = points[210];
+        points[210][2] += 0.03;
+        let moved = projected(&points)[210];
+        assert!((moved[2] - before[2]).abs() < 0.02 && (moved[0] - before[0]).abs() < 0.02, "{moved:?} {before:?}");
+        let line: Vec<[f64; 2]> = (0..400).map(|i| f64::from(i) * 0.01).map(|x| [x, x * x]).collect();
+        assert!(noise(&line) < 0.01);
+        assert!(projected(&line).iter().zip(&line).all(|(p, q)| (p[0] - q[0]).abs() + (p[1] - q[1]).abs() < 1e-3));
+    }
+}
