@@ -56,7 +56,7 @@ pub struct SurfaceOptions {
     /// the largest piece's; by default 0.01.
     pub min_part: f64,
     /// Whether isolated points are dropped before the surface is found; by default `true`. They are far
-    /// from all others: their sixth neighbour is more than four times as far away as is usual, and as
+    /// from all others: the sixth nearest one is more than four times as far away as is usual, and as
     /// it is around them.
     pub drop_isolated: bool,
     /// How often all points are moved onto quadrics through their neighbours before the surface is

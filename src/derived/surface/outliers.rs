@@ -22,9 +22,8 @@ const SAMPLES: usize = 2000;
 /// The number of points that is worth handing to another thread.
 const GRAIN: usize = 1 << 10;
 
-/// Returns whether each vertex is isolated: farther from its sixth neighbour in the mesh than four times
-/// the median of all vertices, and also than four times the median of its neighbours, so that scans
-/// may become sparse with the distance.
+/// Returns whether each vertex is isolated: farther from the sixth nearest one than four times the median
+/// of all vertices, and also than four times the median of its neighbours, so that scans may become sparse with the distance.
 pub(super) fn isolated<const D: usize, const N: usize>(complex: &Complex<'_, D, N>, stars: &Csr) -> Vec<bool> {
     let count = complex.points().len() as u32;
     if stars.len() < MIN_POINTS {
@@ -80,11 +79,20 @@ fn neighbors<const D: usize, const N: usize>(complex: &Complex<'_, D, N>, stars:
     neighbors
 }
 
-/// Returns the squared distance from a vertex to its sixth neighbour, or the last one.
+/// Returns the squared distance from a vertex to the sixth nearest one, or to the last one if there are
+/// fewer. Of a vertex on a surface, most neighbours in the mesh may lie across the solid, so that those
+/// of its nearest neighbours are looked at as well.
 fn reach<const D: usize, const N: usize>(complex: &Complex<'_, D, N>, stars: &Csr, v: u32) -> f64 {
     let point = complex.point(v);
-    let squared = |w: &u32| vector::squared_norm(vector::minus(complex.point(*w), point));
-    let mut distances: Vec<f64> = neighbors(complex, stars, v).iter().map(squared).collect();
+    let squared = |w: u32| vector::squared_norm(vector::minus(complex.point(w), point));
+    let mut near = neighbors(complex, stars, v);
+    near.sort_unstable_by(|&a, &b| squared(a).total_cmp(&squared(b)));
+    for w in near[..near.len().min(NEIGHBORS - 1)].to_vec() {
+        near.extend(neighbors(complex, stars, w));
+    }
+    near.sort_unstable();
+    near.dedup();
+    let mut distances: Vec<f64> = near.into_iter().filter(|&w| w != v).map(squared).collect();
     distances.sort_unstable_by(f64::total_cmp);
     distances.get(NEIGHBORS - 1).or(distances.last()).copied().unwrap_or(0.0)
 }
