@@ -54,6 +54,19 @@ pub trait Incremental<const D: usize> {
     /// are then positively oriented. Returns the affine dimension of all points.
     fn spanning_first(points: Points<'_, D>, order: &mut [u32]) -> u8;
 
+    /// Triangulates all vertices by [`insert_all`]. An item of its own, so that it is compiled with this crate
+    /// and its profile, whoever calls it.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`insert_all`].
+    fn triangulate(
+        threads: Threads,
+        vertices: &PredicateContext<'_, D>,
+        rounds: &[Range<u32>],
+        options: &Options,
+    ) -> Result<Self::Triangulation, Error>;
+
     /// Returns the mesh of a triangulation, in which vertex *v* becomes `names[v]`, made by
     /// `threads`.
     fn mesh(triangulation: Self::Triangulation, names: &[u32], threads: Threads, options: &Options) -> Self::Mesh;
@@ -185,7 +198,7 @@ where
     stats.phases.push((Phase::Sort, stopwatch.lap()));
     let mut mesh = if usize::from(dimension) == D {
         let vertices = PredicateContext::new_by(threads, points, &lattice, order);
-        let triangulation = insert_all(threads, &vertices, &rounds, options)?;
+        let triangulation = Dimension::<D>::triangulate(threads, &vertices, &rounds, options)?;
         stats.phases.push((Phase::Insert, stopwatch.lap()));
         stats.exact = vertices.exact_counts();
         let mesh = Dimension::<D>::mesh(triangulation, &vertices.into_input_indices(), threads, options);
@@ -254,16 +267,38 @@ pub(crate) fn insert_points<const D: usize, T: Insert<D>>(
     report: impl Fn(usize) -> Result<(), Error>,
 ) -> Result<(), Error> {
     let mut scratch = triangulation.scratch();
-    let mut last = start;
-    for (inserted, p) in points.into_iter().enumerate() {
-        if inserted % T::REPORT == 0 {
-            report(inserted)?;
-        }
-        let start = triangulation.locate(vertices, p, last);
-        last = triangulation.insert(vertices, p, start, &mut scratch)?.expect("nobody disturbs the only thread");
+    let mut points = points.into_iter().peekable();
+    let (mut last, mut inserted) = (start, 0);
+    while points.peek().is_some() {
+        report(inserted)?;
+        last = insert_some(triangulation, vertices, &mut points.by_ref().take(T::REPORT), last, &mut scratch)?;
+        inserted += T::REPORT;
     }
     triangulation.finish(scratch);
     Ok(())
+}
+
+/// Inserts a few vertices. Returns a simplex at the last one.
+///
+/// Engines of WebAssembly replace code by faster code only when it is called again, so this is a function.
+///
+/// # Errors
+///
+/// Returns [`Error::TooManySimplices`] and [`Error::OutOfMemory`].
+#[inline(never)]
+fn insert_some<const D: usize, T: Insert<D>>(
+    triangulation: &mut T,
+    vertices: &PredicateContext<'_, D>,
+    points: &mut dyn Iterator<Item = u32>,
+    start: u32,
+    scratch: &mut T::Scratch,
+) -> Result<u32, Error> {
+    let mut last = start;
+    for p in points {
+        let start = triangulation.locate(vertices, p, last);
+        last = triangulation.insert(vertices, p, start, scratch)?.expect("nobody disturbs the only thread");
+    }
+    Ok(last)
 }
 
 #[cfg(test)]

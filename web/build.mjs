@@ -8,6 +8,7 @@ import {
   mkdirSync,
   readdirSync,
   readFileSync,
+  renameSync,
   rmSync,
   statSync,
   writeFileSync,
@@ -18,22 +19,14 @@ import { fileURLToPath } from 'node:url';
 import { gzipSync } from 'node:zlib';
 import * as esbuild from 'esbuild';
 import { minify } from 'terser';
-import { gluePlugin, importNames } from './glue.mjs';
-import { renameImports } from './imports.mjs';
 
 const web = dirname(fileURLToPath(import.meta.url));
 const root = dirname(web);
 const dist = join(web, 'dist');
 const pkg = (name) => join(web, 'pkg', name);
 
-/** The wasm modules, each a feature of the crate in `wasm`, and their files in the package. */
-const MODULES = {
-  d3: 'gdel-3d.wasm',
-  d2: 'gdel-2d.wasm',
-  edit: 'gdel-edit.wasm',
-  tools: 'gdel-tools.wasm',
-  derived: 'gdel-derived.wasm',
-};
+/** The wasm modules, each a feature of the crate in `wasm`, and their names in those of files. */
+const MODULES = { d3: '3d', d2: '2d', edit: 'edit', tools: 'tools', derived: 'derived' };
 
 const say = (text) => console.log(`build: ${text}`);
 // wasm-bindgen is there; wasm-opt is that of the npm package binaryen, since Debian's is too old
@@ -59,51 +52,79 @@ const run = (command, args, more) =>
     env: { ...env, ...more },
   });
 
+/** WebAssembly and JavaScript of different versions do not fit, since this names what is imported. */
+const { version } = JSON.parse(readFileSync(join(web, 'package.json'), 'utf8'));
+const OUT_NAME = `gdel_${version.replaceAll(/\W/g, '_')}`;
+
 function buildWasm() {
   for (const name of Object.keys(MODULES)) {
     say(`${name}: wasm-pack`);
-    const packing = ['--profile', 'wasm', '--target', 'web', '--no-pack', '--no-typescript'];
-    const to = ['--out-dir', pkg(name), '--out-name', 'gdel'];
+    const packing = ['--profile', 'wasm', '--target', 'web', '--no-pack'];
+    const to = ['--out-dir', pkg(name), '--out-name', OUT_NAME];
     const args = ['build', '--mode', 'no-install', ...packing, ...to, join(web, 'wasm')];
     const cargo = ['--locked', '--features', name];
     run('wasm-pack', ['--log-level', 'warn', ...args, '--', ...cargo], { CARGO_ENCODED_RUSTFLAGS });
+    for (const file of ['.js', '.d.ts', '_bg.wasm'])
+      renameSync(join(pkg(name), OUT_NAME + file), join(pkg(name), `gdel${file}`));
   }
 }
 
-const glueFiles = Object.fromEntries(
-  Object.keys(MODULES).map((name) => [name, join(pkg(name), 'gdel.js')]),
-);
-const glue = gluePlugin(glueFiles);
+/**
+ * What wasm-bindgen's JavaScript needs beside a global object: the classes by which wgpu tells errors apart,
+ * which are not globals everywhere, and what jsdom does not have, but Node below it does.
+ */
+const NEEDED = [
+  ...['GPUValidationError', 'GPUOutOfMemoryError'].map(
+    (name) =>
+      `const ${name} = { [Symbol.hasInstance]: (e) => e?.constructor?.name === '${name}' };`,
+  ),
+  "const { TextDecoder, TextEncoder } = globalThis.TextDecoder ? globalThis : globalThis.process.getBuiltinModule('node:util');",
+];
 
-/** The module that holds a copy of a wasm module, or of the worker. */
-const COPIES = {
-  d3: 'inline-3d',
-  d2: 'inline-2d',
-  edit: 'inline-edit',
-  tools: 'inline-tools',
-  derived: 'inline-derived',
-  worker: 'inline-worker',
+/**
+ * Resolves `glue:d3` to a function that holds what wasm-bindgen has written for that module, and returns its
+ * exports: each call has a state of its own. wasm-bindgen looks for the global object under both names.
+ */
+const glue = {
+  name: 'glue',
+  setup(build) {
+    build.onResolve({ filter: /^glue:/ }, ({ path }) => ({ path, namespace: 'glue' }));
+    build.onLoad({ filter: /.*/, namespace: 'glue' }, async ({ path }) => {
+      const { outputFiles } = await esbuild.build({
+        // Without the default, which fetches the module.
+        stdin: { contents: "export * from './gdel.js';", resolveDir: pkg(path.slice(5)) },
+        bundle: true,
+        write: false,
+        format: 'iife',
+        globalName: 'glue',
+        target: 'es2022',
+      });
+      const body = [...NEEDED, outputFiles[0].text, 'return glue;'].join('\n');
+      return { contents: `export default (globalThis, self = globalThis) => {\n${body}\n};` };
+    });
+  },
 };
 
 /** Leaves the modules that hold copies files of their own, which are loaded when they are needed. */
 const copies = {
   name: 'copies',
   setup(build) {
-    build.onResolve({ filter: /^(base64|text):/ }, ({ path }) => ({
-      path: `./${COPIES[path.slice(path.indexOf(':') + 1)]}.js`,
-      external: true,
-    }));
+    build.onResolve({ filter: /^(base64|text):/ }, ({ path }) => {
+      const [kind, name] = path.split(':');
+      const copy = kind === 'text' ? 'inline-worker' : 'inline';
+      return { path: `./${copy}-${MODULES[name]}.js`, external: true };
+    });
   },
 };
 
-/** The modules with copies: compressed and in base64, or the text of the bundled worker. */
+/** The modules with copies: compressed and in base64, or the text of a bundled worker. */
 function writeCopies() {
-  for (const [name, copy] of Object.entries(COPIES)) {
-    const content =
-      name === 'worker'
-        ? readFileSync(join(dist, 'worker.js'), 'utf8')
-        : gzipSync(readFileSync(join(dist, MODULES[name])), { level: 9 }).toString('base64');
-    writeFileSync(join(dist, `${copy}.js`), `export default ${JSON.stringify(content)};\n`);
+  const copy = (file, content) =>
+    writeFileSync(join(dist, file), `export default ${JSON.stringify(content)};\n`);
+  for (const name of Object.values(MODULES)) {
+    const wasm = readFileSync(join(dist, `gdel-${name}.wasm`));
+    copy(`inline-${name}.js`, gzipSync(wasm, { level: 9 }).toString('base64'));
+    copy(`inline-worker-${name}.js`, readFileSync(join(dist, `worker-${name}.js`), 'utf8'));
   }
 }
 
@@ -138,12 +159,14 @@ const withAssets = (name, ...others) => ({
   plugins: others,
 });
 
-/** Leaves the worker's tasks a file of their own, for the calling thread. */
-const taskCode = (file) => ({
+/** Leaves the tasks of each module a file of their own, for the calling thread. */
+const taskCode = (extension) => ({
   name: 'task-code',
   setup(build) {
-    build.onResolve({ filter: /^\.\/core\.js$/ }, ({ kind }) =>
-      kind === 'dynamic-import' ? { path: `./${file}`, external: true } : undefined,
+    build.onResolve({ filter: /^\.\/core-\w+\.js$/ }, ({ path, kind }) =>
+      kind === 'dynamic-import'
+        ? { path: path.replace(/js$/, extension), external: true }
+        : undefined,
     );
   },
 });
@@ -159,19 +182,20 @@ const COMMON_JS = {
 async function buildJs() {
   rmSync(dist, { recursive: true, force: true });
   mkdirSync(dist);
-  const imports = importNames(glueFiles);
-  for (const [name, file] of Object.entries(MODULES)) {
-    const module = readFileSync(join(pkg(name), 'gdel_bg.wasm'));
-    writeFileSync(join(dist, file), renameImports(module, imports));
-  }
   say('JavaScript: esbuild');
-  await bundle('worker.ts', 'worker.js');
+  for (const [module, name] of Object.entries(MODULES)) {
+    cpSync(join(pkg(module), 'gdel_bg.wasm'), join(dist, `gdel-${name}.wasm`));
+    const core = `core-${name}`;
+    await bundle('worker.ts', `worker-${name}.js`, {
+      alias: { '#core': join(web, `src/${core}.ts`) },
+    });
+    await bundle(`${core}.ts`, `${core}.js`);
+    await bundle(`${core}.ts`, `${core}.cjs`, { format: 'cjs' });
+  }
   writeCopies();
-  await bundle('core.ts', 'core.js');
-  await bundle('core.ts', 'core.cjs', { format: 'cjs' });
-  await bundle('index.ts', 'index.js', withAssets('assets', taskCode('core.js')));
-  await bundle('index.ts', 'inline.js', withAssets('assets-inline', taskCode('core.js')));
-  const require = { ...withAssets('assets-cjs', taskCode('core.cjs')), ...COMMON_JS };
+  await bundle('index.ts', 'index.js', withAssets('assets', taskCode('js')));
+  await bundle('index.ts', 'inline.js', withAssets('assets-inline', taskCode('js')));
+  const require = { ...withAssets('assets-cjs', taskCode('cjs')), ...COMMON_JS };
   await bundle('index.ts', 'index.cjs', require);
   // The class is that of the main entry, so that both can be imported side by side.
   const names = 'Delaunator, Delaunator as default, GdelError';

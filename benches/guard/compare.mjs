@@ -51,7 +51,7 @@ const SECTIONS = {
     const dist = join(root, 'web/dist');
     if (!existsSync(dist)) throw new Error('web/dist is missing: run `npm run build` first');
     // The others are copies of these in another form.
-    const files = readdirSync(dist).filter((file) => /^(?!inline).*\.(wasm|js)$/.test(file));
+    const files = readdirSync(dist).filter((file) => /^(?!inline|core).*\.(wasm|js)$/.test(file));
     return files.flatMap((file) => {
       const content = readFileSync(join(dist, file));
       return [

@@ -1,7 +1,7 @@
 //! The 2D parts of the CPU engine.
 
 use crate::{
-    cpu::{Grow, Incremental, SharedRun, insert_by_workers},
+    cpu::{Grow, Incremental, SharedRun, insert_all, insert_by_workers},
     d2::{
         Mesh2, Triangulation2,
         insert::{self, edge_of},
@@ -13,9 +13,10 @@ use crate::{
     input::{hilbert, order::Curve, points::Points2},
     options::Options,
     parallel::{self, Threads},
-    predicates::orient2d,
+    predicates::{filter::PredicateContext2, orient2d},
     slots::{self, SharedSlots},
 };
+use std::ops::Range;
 
 impl Incremental<2> for Dimension<2> {
     type Mesh = Mesh2;
@@ -36,6 +37,15 @@ impl Incremental<2> for Dimension<2> {
             order.swap(0, 1);
         }
         2
+    }
+
+    fn triangulate(
+        threads: Threads,
+        vertices: &PredicateContext2<'_>,
+        rounds: &[Range<u32>],
+        options: &Options,
+    ) -> Result<Triangulation2, Error> {
+        insert_all(threads, vertices, rounds, options)
     }
 
     fn mesh(triangulation: Triangulation2, names: &[u32], threads: Threads, options: &Options) -> Mesh2 {

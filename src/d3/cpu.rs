@@ -1,7 +1,7 @@
 //! The 3D parts of the CPU engine.
 
 use crate::{
-    cpu::{Grow, Incremental, SharedRun, insert_by_workers},
+    cpu::{Grow, Incremental, SharedRun, insert_all, insert_by_workers},
     d3::{
         Mesh3, insert,
         mesh::FACETS,
@@ -13,9 +13,10 @@ use crate::{
     input::{hilbert, order::Curve, points::Points3},
     options::Options,
     parallel::{self, Threads},
-    predicates::{collinear, orient3d},
+    predicates::{collinear, filter::PredicateContext3, orient3d},
     slots::{self, SharedSlots},
 };
+use std::ops::Range;
 
 impl Incremental<3> for Dimension<3> {
     type Mesh = Mesh3;
@@ -40,6 +41,15 @@ impl Incremental<3> for Dimension<3> {
             order.swap(0, 1);
         }
         3
+    }
+
+    fn triangulate(
+        threads: Threads,
+        vertices: &PredicateContext3<'_>,
+        rounds: &[Range<u32>],
+        options: &Options,
+    ) -> Result<Triangulation3, Error> {
+        insert_all(threads, vertices, rounds, options)
     }
 
     fn mesh(triangulation: Triangulation3, names: &[u32], threads: Threads, _options: &Options) -> Mesh3 {

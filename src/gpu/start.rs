@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use bytemuck::Zeroable;
 
-use crate::cpu::{Grow, Incremental, insert_all};
+use crate::cpu::{Grow, Incremental};
 use crate::dimension::Dimension;
 use crate::error::Error;
 use crate::gpu::dim::{Corners, Dim};
@@ -268,6 +268,6 @@ where
         return Ok(None);
     }
     let vertices = PredicateContext::new(points, &lattice, order);
-    let triangulation = insert_all(Threads::One, &vertices, &rounds, &Options::default())?;
+    let triangulation = Dimension::<D>::triangulate(Threads::One, &vertices, &rounds, &Options::default())?;
     Ok(Some(Triangulated { triangulation, vertices: vertices.into_input_indices() }))
 }

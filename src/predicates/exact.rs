@@ -17,12 +17,6 @@ use std::ops::Add;
 /// 2⁻¹⁹³ or above, so a product of five has its last bit at 2⁻⁹⁶⁵ or above, and the determinants
 /// stay below 2¹⁰⁰⁰.
 fn expansions_are_exact<const D: usize>(points: &[[f64; D]]) -> bool {
-    // They take 14 kB of a module that triangulates, gzipped, for signs that are rarely needed there:
-    // those of points that the lattice rounds. Big integers take as long for points whose
-    // coordinates are spread over 100 powers of ten.
-    if cfg!(all(target_arch = "wasm32", feature = "gpu")) {
-        return false;
-    }
     const MIN: f64 = 1.0 / (1u128 << 127) as f64 / 8192.0;
     const MAX: f64 = (1u128 << 127) as f64 * (1u64 << 60) as f64;
     points.as_flattened().iter().all(|&x| x == 0.0 || (MIN..=MAX).contains(&x.abs()))

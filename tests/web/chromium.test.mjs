@@ -104,7 +104,7 @@ test('the GPU backend: native mesh, trace, progress, abort, device loss', {
       channel.postMessage('told');
     };\n`;
   const page = await open({
-    change: (path, content) => (path === '/gdel/worker.js' ? loseDevice + content : content),
+    change: (path, content) => (path === '/gdel/worker-3d.js' ? loseDevice + content : content),
   });
   const small = pinned.find(({ count }) => count < 100);
   const found = await page.evaluate(async ({ kind, count, seed }) => {
@@ -240,7 +240,7 @@ async function requestsOf(source) {
 
 test('a page downloads what it uses, and no copies', async () => {
   assert.deepEqual(await requestsOf('/gdel/index.js'), {
-    files: ['/gdel/gdel-3d.wasm', '/gdel/index.js', '/gdel/worker.js'],
+    files: ['/gdel/gdel-3d.wasm', '/gdel/index.js', '/gdel/worker-3d.js'],
     thread: 'worker',
     whyInlined: null,
   });
@@ -248,7 +248,7 @@ test('a page downloads what it uses, and no copies', async () => {
 
 test('with the inlined build, a page downloads what it uses, and only JavaScript', async () => {
   assert.deepEqual(await requestsOf('/gdel/inline.js'), {
-    files: ['/gdel/inline-3d.js', '/gdel/inline-worker.js', '/gdel/inline.js'],
+    files: ['/gdel/inline-3d.js', '/gdel/inline-worker-3d.js', '/gdel/inline.js'],
     thread: 'worker',
     whyInlined: 'gdel-wasm/inline was imported',
   });

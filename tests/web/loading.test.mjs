@@ -29,8 +29,8 @@ const EXPECTED = { thread: 'worker', whyThread: null, whyInlined: null, sync: nu
 
 test('where all files are, no copy is loaded', () => {
   const withoutCopies = (folder) => {
-    for (const name of ['3d', '2d', 'edit', 'tools', 'derived', 'worker'])
-      rmSync(join(folder, `inline-${name}.js`));
+    for (const name of ['3d', '2d', 'edit', 'tools', 'derived'])
+      for (const copy of ['inline', 'inline-worker']) rmSync(join(folder, `${copy}-${name}.js`));
   };
   assert.deepEqual(run(withoutCopies), EXPECTED);
 });
@@ -51,7 +51,7 @@ test('a page of HTML in place of a wasm file is told apart', () => {
 const OTHER_VERSIONS = {
   'without exports': () => Uint8Array.of(0, 0x61, 0x73, 0x6d, 1, 0, 0, 0),
   'with other imports': (file) => {
-    // The imports have short names, and the name of their module says which they are.
+    // The name of the module from which all is imported says which version they are.
     const [{ module }] = WebAssembly.Module.imports(new WebAssembly.Module(file));
     const other = [...module].reverse().join('');
     assert.notEqual(other, module);
@@ -82,13 +82,13 @@ for (const [what, other] of Object.entries(OTHER_VERSIONS))
 
 test('code that is missing is an error that says what to do', async () => {
   const folder = project();
-  rmSync(join(dist(folder), 'core.js'));
+  for (const module of ['3d', '2d']) rmSync(join(dist(folder), `core-${module}.js`));
   const { createTriangulator, delaunay3d, GdelError, load2d } = await importFrom(folder);
   for (const call of [() => load2d(), () => createTriangulator({ worker: false })]) {
     await assert.rejects(call, (error) => {
       assert.ok(error instanceof GdelError, String(error));
       assert.equal(error.code, 'LOAD_FAILED');
-      assert.match(error.message, /core\.js.*Deploy/s);
+      assert.match(error.message, /core-[23]d\.js.*Deploy/s);
       return true;
     });
   }
@@ -96,16 +96,17 @@ test('code that is missing is an error that says what to do', async () => {
 });
 
 test('a worker that is missing is replaced by its copy, and the statistics say so', () => {
-  const found = run((folder) => rmSync(join(folder, 'worker.js')));
-  assert.match(found.whyInlined, /worker\.js/);
+  const found = run((folder) => rmSync(join(folder, 'worker-3d.js')));
+  assert.match(found.whyInlined, /worker-3d\.js/);
   assert.deepEqual({ ...found, whyInlined: null }, EXPECTED);
 });
 
 test('gdel-wasm/inline needs no files', () => {
   const found = run((folder) => {
-    for (const module of ['3d', '2d', 'edit', 'tools', 'derived'])
+    for (const module of ['3d', '2d', 'edit', 'tools', 'derived']) {
       rmSync(join(folder, `gdel-${module}.wasm`));
-    rmSync(join(folder, 'worker.js'));
+      rmSync(join(folder, `worker-${module}.js`));
+    }
   }, 'gdel-wasm/inline');
   const why = 'gdel-wasm/inline was imported';
   assert.deepEqual(found, { ...EXPECTED, whyInlined: why, sync: why });

@@ -152,7 +152,7 @@ test('a bundle of the delaunator class alone holds the 2D module alone', async (
   await bundled(folder, { minify: true });
   assert.equal(await resultIn(folder, 'index.html'), 3);
   const { length } = readFileSync(join(folder, 'out/main.js'));
-  const sizes = ['inline-2d.js', 'core.js', 'index.js'].map(
+  const sizes = ['inline-2d.js', 'core-2d.js', 'index.js'].map(
     (file) => readFileSync(join(dist(folder), file)).length,
   );
   assert.ok(length < sizes.reduce((a, b) => a + b), `${length} bytes`);
@@ -281,26 +281,21 @@ test('every file that the package names is in it', () => {
     'package.json',
   ]);
   const files = readdirSync(folder);
+  const ofModules = ['3d', '2d', 'edit', 'tools', 'derived'].flatMap((module) => [
+    `gdel-${module}.wasm`,
+    `core-${module}.js`,
+    `core-${module}.cjs`,
+    `worker-${module}.js`,
+    `inline-${module}.js`,
+    `inline-worker-${module}.js`,
+  ]);
   for (const file of [
+    ...ofModules,
     'index.js',
     'index.cjs',
     'inline.js',
-    'core.js',
-    'core.cjs',
-    'worker.js',
     'delaunator.js',
     'delaunator.cjs',
-    'gdel-3d.wasm',
-    'gdel-2d.wasm',
-    'gdel-edit.wasm',
-    'gdel-tools.wasm',
-    'gdel-derived.wasm',
-    'inline-3d.js',
-    'inline-2d.js',
-    'inline-edit.js',
-    'inline-tools.js',
-    'inline-derived.js',
-    'inline-worker.js',
     'index.d.ts',
     'index.d.cts',
     'inline.d.ts',

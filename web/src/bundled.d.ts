@@ -1,12 +1,33 @@
-// What the build script makes of the wasm packages and of the worker.
+// What the build script makes of the wasm packages and of the workers.
 
 /**
- * The JavaScript side of the wasm modules, with a state of its own in each call: a broken instance
- * can be replaced. It has the exports of all modules; those of the named one work. Some calls of wgpu are
- * made by `calls`, if it is given.
+ * Returns an instance of the JavaScript that wasm-bindgen has written for a module, with a state of its
+ * own: a broken one can be replaced. Takes what stands for the global object.
  */
-declare module 'glue' {
-  const makeGlue: (moduleName: string, calls: object | undefined, globalThis: object) => any;
+type MakeGlue<Glue> = (globalThis: object) => Glue;
+
+declare module 'glue:d3' {
+  const makeGlue: MakeGlue<typeof import('../pkg/d3/gdel.js')>;
+  export default makeGlue;
+}
+
+declare module 'glue:d2' {
+  const makeGlue: MakeGlue<typeof import('../pkg/d2/gdel.js')>;
+  export default makeGlue;
+}
+
+declare module 'glue:edit' {
+  const makeGlue: MakeGlue<typeof import('../pkg/edit/gdel.js')>;
+  export default makeGlue;
+}
+
+declare module 'glue:tools' {
+  const makeGlue: MakeGlue<typeof import('../pkg/tools/gdel.js')>;
+  export default makeGlue;
+}
+
+declare module 'glue:derived' {
+  const makeGlue: MakeGlue<typeof import('../pkg/derived/gdel.js')>;
   export default makeGlue;
 }
 
@@ -16,8 +37,8 @@ declare module 'base64:*' {
   export default base64;
 }
 
-/** The text of the bundled worker, which becomes a file of its own. */
-declare module 'text:worker' {
+/** The text of a bundled worker, which becomes a file of its own. */
+declare module 'text:*' {
   const source: string;
   export default source;
 }

@@ -1,26 +1,22 @@
 // What the thread that has the device sends to the worker that has the points.
 
 import type { Coordinates, Indices } from './arrays.js';
-import type { Buffer, Device, Queue } from './device.js';
+import type { Buffer, Queue } from './device.js';
 import type { Helper } from './protocol.js';
 import { Slice, STEP_BYTES } from './slices.js';
-
-/** Writes bytes to a buffer. */
-type Write = (queue: Queue, ...call: Parameters<Queue['writeBuffer']>) => void;
 
 /** Writes an array to a buffer of the device, giving way to other events after each slice. */
 export async function writeInSlices(
   buffer: Buffer,
   array: ArrayBufferView,
   queue: Queue,
-  write: Write,
 ): Promise<void> {
   const slice = new Slice();
   const { byteOffset, byteLength } = array;
   for (let at = 0; at < byteLength; at += STEP_BYTES) {
     if (slice.isOver) await slice.next();
     const size = Math.min(STEP_BYTES, byteLength - at);
-    write(queue, buffer, at, new Uint8Array(array.buffer, byteOffset + at, size), 0, size);
+    queue.writeBuffer(buffer, at, new Uint8Array(array.buffer, byteOffset + at, size), 0, size);
   }
 }
 
@@ -32,22 +28,15 @@ export class PointCarrier {
   /** Why the worker did not answer. */
   failure: unknown;
   readonly #helper: Helper;
-  readonly #device: Device;
-  readonly #write: Write;
+  readonly #queue: () => Queue;
   #slice = new Slice();
 
-  constructor(
-    points: Coordinates,
-    helper: Helper,
-    device: Device,
-    dimension: number,
-    write: Write,
-  ) {
+  /** The device's queue is asked for when there is something to write. */
+  constructor(points: Coordinates, dimension: number, helper: Helper, queue: () => Queue) {
     this.points = points;
     this.pointCount = points.length / dimension;
     this.#helper = helper;
-    this.#device = device;
-    this.#write = write;
+    this.#queue = queue;
   }
 
   /** Does something while the worker has a copy of the points. */
@@ -71,7 +60,7 @@ export class PointCarrier {
   }
 
   async upload(buffer: Buffer): Promise<void> {
-    await writeInSlices(buffer, this.points, this.#device.queue, this.#write);
+    await writeInSlices(buffer, this.points, this.#queue());
     this.#slice = new Slice();
   }
 

@@ -1,8 +1,9 @@
-// A place where tasks run, one at a time: a worker or the calling thread.
+// A place where the tasks of a module run, one at a time: a worker or the calling thread.
 
 import { allInThisRealm } from './arrays.js';
+import type { Core } from './core.js';
 import type { PlainError } from './errors.js';
-import type { FromWorker, ModuleName, TaskName, Tasks } from './protocol.js';
+import type { FromWorker, TaskName, Tasks } from './protocol.js';
 import type { Loaded, WorkerThread } from './runtime.js';
 import type { Stop } from './stop.js';
 import type { Place } from './types.js';
@@ -16,25 +17,23 @@ const GRACE_MILLISECONDS = 50;
 export interface Connection extends Place {
   /** False when the thread has died or was ended. */
   readonly isAlive: boolean;
-  /** Accepts a module for later tasks. */
-  load(name: ModuleName, module: WebAssembly.Module): void;
   /** Rejects with a {@link PlainError}. */
   run<T extends TaskName>(
-    module: ModuleName,
     task: T,
     args: Tasks[T]['args'],
     transfer: ArrayBuffer[],
     stop: Stop,
   ): Promise<Tasks[T]['result']>;
   /** Frees a mesh that stays on the device of the caller, if this is the thread that has it. */
-  free?(name: ModuleName, key: number): void;
+  free?(key: number): void;
   close(): void;
 }
 
-type TaskCode = typeof import('./core.js');
-
 /** Runs tasks in a worker. */
-export function workerConnection({ value: thread, whyInlined }: Loaded<WorkerThread>): Connection {
+export function workerConnection(
+  { value: thread, whyInlined }: Loaded<WorkerThread>,
+  module: Loaded<WebAssembly.Module>,
+): Connection {
   let next = 0;
   let isAlive = true;
   let pending:
@@ -50,22 +49,22 @@ export function workerConnection({ value: thread, whyInlined }: Loaded<WorkerThr
     if (message.type !== 'ready' && message.id === pending?.id) pending.handle(message);
   });
   thread.onError(fail);
+  thread.post({ type: 'load', module: module.value }, []);
 
   return {
     thread: 'worker',
     whyThread: null,
-    whyInlined,
+    whyInlined: module.whyInlined ?? whyInlined,
     get isAlive() {
       return isAlive;
     },
-    load: (name, module) => thread.post({ type: 'load', name, module }, []),
     close() {
       isAlive = false;
       thread.terminate();
       const message = 'the triangulator was disposed of';
       pending?.fail({ code: 'DISPOSED', message, fatal: false });
     },
-    run(module, task, args, transfer, stop) {
+    run(task, args, transfer, stop) {
       const id = next++;
       let timer: ReturnType<typeof setTimeout> | undefined;
       let isBlocking = false;
@@ -94,7 +93,7 @@ export function workerConnection({ value: thread, whyInlined }: Loaded<WorkerThr
           },
         };
         thread.keepAlive(true);
-        thread.post({ type: 'run', id, module, task, args, isWatched: stop.isWatched }, transfer);
+        thread.post({ type: 'run', id, task, args, isWatched: stop.isWatched }, transfer);
       }).finally(() => {
         pending = undefined;
         clearTimeout(timer);
@@ -109,28 +108,21 @@ export function workerConnection({ value: thread, whyInlined }: Loaded<WorkerThr
  * can come from its own callback or, while the GPU works, from anywhere.
  */
 export function callerConnection(
-  { makeCore }: TaskCode,
-  gpu: object | undefined,
-  whyThread: string,
+  core: Core,
+  { whyThread, whyInlined }: Pick<Place, 'whyThread' | 'whyInlined'>,
 ): Connection {
-  const cores = new Map<ModuleName, ReturnType<typeof makeCore>>();
   return {
     thread: 'caller',
     whyThread,
-    whyInlined: null,
+    whyInlined,
     isAlive: true,
-    load(name, module) {
-      cores.set(name, makeCore(name, module, gpu));
-    },
-    run: (module, task, args, _transfer, stop) =>
-      cores.get(module)!.run(task, args, {
+    run: (task, args, _transfer, stop) =>
+      core.run(task, args, {
         onProgress: (progress) => stop.report(progress),
         onBlocking() {},
         isAborted: () => stop.isStopped,
       }),
-    free: (name, key) => cores.get(name)!.free(key),
-    close() {
-      for (const core of cores.values()) core.dispose();
-    },
+    free: (key) => core.free(key),
+    close: () => core.dispose(),
   };
 }

@@ -1,6 +1,6 @@
 // What is derived from a mesh, in a WebAssembly module of its own.
 
-import { wasmDerived } from '#assets';
+import { moduleDerived } from '#assets';
 import type {
   AlphaOptions,
   AlphaShape,
@@ -32,7 +32,7 @@ async function run<T extends TaskName>(
 ): Promise<Tasks[T]['result']> {
   checkArrays({ points, ...mesh });
   const all = { dimension, points, mesh, ...args } as Tasks[T]['args'];
-  return runShared(wasmDerived, task, all, options);
+  return runShared(moduleDerived, task, all, options);
 }
 
 /** Returns query points as one array that nobody else uses. */

@@ -22,6 +22,18 @@ export interface Queue {
   writeBuffer(buffer: object, at: number, data: Uint8Array, start: number, size: number): void;
 }
 
+/** What is used of a `GPUComputePassEncoder`. */
+export interface Pass {
+  setPipeline(pipeline: object): void;
+}
+
+/** What is used of a `GPUCommandEncoder`. */
+export interface Encoder {
+  beginComputePass(descriptor?: object): Pass;
+  copyBufferToBuffer(from: object, at: number, to: object, start: number, size: number): void;
+  finish(): object;
+}
+
 /** What is used of a `GPUDevice`. */
 export interface Device extends DeviceInfo {
   lost: Promise<{ reason: string; message: string }>;
@@ -29,10 +41,7 @@ export interface Device extends DeviceInfo {
   createBuffer(descriptor: object): Buffer;
   createComputePipeline(descriptor: object): object;
   createComputePipelineAsync(descriptor: object): Promise<object>;
-  createCommandEncoder(): {
-    copyBufferToBuffer(from: object, at: number, to: object, start: number, size: number): void;
-    finish(): object;
-  };
+  createCommandEncoder(descriptor?: object): Encoder;
   pushErrorScope(filter: string): void;
   popErrorScope(): Promise<{ message: string } | null>;
 }

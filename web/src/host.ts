@@ -1,19 +1,17 @@
-// Where tasks run: in one worker, which is started when it is needed, or in the calling thread. One
-// task runs at a time; others wait. A second worker is kept ready where runs are aborted, since that
-// can end the first.
+// Where tasks run: in a worker for each module, which is started when it is needed, or in the calling
+// thread. One task runs at a time; others wait. A second worker is kept ready where runs are aborted,
+// since that can end the first.
 
-import { taskCode, workerCode } from '#assets';
 import { type Coordinates, isDetached } from './arrays.js';
 import { type Connection, callerConnection, workerConnection } from './connection.js';
+import type { Core } from './core.js';
 import { type Device, gpuOf } from './device.js';
 import { GdelError, giveBack, type PlainError, toGdelError } from './errors.js';
 import { compiled } from './modules.js';
 import type { Done, Helper, ModuleName, TaskName, Tasks } from './protocol.js';
-import { loadCode, messageOf, startWorker, type WasmAsset } from './runtime.js';
+import { loadCode, type ModuleAsset, messageOf, startWorker } from './runtime.js';
 import { Stop } from './stop.js';
 import type { Progress, TaskOptions } from './types.js';
-
-type Core = ReturnType<typeof import('./core.js').makeCore>;
 
 /** A run that can be aborted and takes longer than this has a second worker started beside it. */
 const WARM_MILLISECONDS = 100;
@@ -36,11 +34,9 @@ export class Host {
   readonly #device: Device | undefined;
   /** The instances that drive the device in this thread, while a worker computes. */
   readonly #drivers = new Map<ModuleName, Core>();
-  #connection: Promise<Connection> | undefined;
-  /** A worker that waits for the first one to be ended. */
-  #spare: Promise<Connection> | undefined;
-  /** The modules that each connection has. */
-  readonly #loaded = new WeakMap<Connection, Set<WasmAsset>>();
+  readonly #connections = new Map<ModuleName, Promise<Connection>>();
+  /** Workers that wait for others to be ended. */
+  readonly #spares = new Map<ModuleName, Promise<Connection>>();
   /** Why no worker can be used here, if that is known. */
   #noWorker: string | null = null;
   #last: Promise<unknown> = Promise.resolve();
@@ -55,7 +51,7 @@ export class Host {
 
   /** Runs a task after all earlier ones. */
   run<T extends TaskName>(
-    asset: WasmAsset,
+    asset: ModuleAsset,
     task: T,
     args: Tasks[T]['args'],
     { transfer, isGiven = false }: Sending,
@@ -80,15 +76,14 @@ export class Host {
   }
 
   async #perform<T extends TaskName>(
-    asset: WasmAsset,
+    asset: ModuleAsset,
     task: T,
     args: Tasks[T]['args'],
     transfer: ArrayBuffer[],
     stop: Stop,
   ): Promise<Done<T>> {
     stop.throwIfStopped();
-    const connection = await this.#connect();
-    const whyInlined = (await this.#load(connection, asset)) ?? connection.whyInlined;
+    const connection = await this.#connect(asset);
     stop.throwIfStopped();
     this.#throwIfDisposed();
     let timer: ReturnType<typeof setTimeout> | undefined;
@@ -98,17 +93,17 @@ export class Host {
       stop.onStop(warm);
     }
     try {
-      const { thread, whyThread } = connection;
+      const { thread, whyThread, whyInlined } = connection;
       const place = { thread, whyThread, whyInlined };
       if (this.#device && thread === 'worker' && isDriven(task)) {
         const driver = await this.#driver(asset);
-        const result = await this.#drive(driver, connection, asset, task, args, stop);
+        const result = await this.#drive({ driver, connection, asset }, task, args, stop);
         return { result, place, free: driver.free };
       }
-      const result = await connection.run(asset.name, task, args, transfer, stop);
-      return { result, place, free: (key) => connection.free?.(asset.name, key) };
+      const result = await connection.run(task, args, transfer, stop);
+      return { result, place, free: (key) => connection.free?.(key) };
     } catch (thrown) {
-      if ((thrown as PlainError).fatal) this.#drop(connection);
+      if ((thrown as PlainError).fatal) this.#drop(connection, asset);
       throw thrown;
     } finally {
       clearTimeout(timer);
@@ -116,19 +111,18 @@ export class Host {
   }
 
   /** Returns the instance of a module that drives the device. */
-  async #driver({ name, ...asset }: WasmAsset): Promise<Core> {
-    const { value } = await compiled({ name, ...asset });
-    const { makeCore } = await loadCode(taskCode);
-    const driver = this.#drivers.get(name) ?? makeCore(name, value, this.#gpu, this.#device);
-    this.#drivers.set(name, driver);
+  async #driver({ wasm, code }: ModuleAsset): Promise<Core> {
+    const { value } = await compiled(wasm);
+    const { openCore } = await loadCode(code);
+    const uses = { gpu: this.#gpu, device: this.#device };
+    const driver = this.#drivers.get(wasm.name) ?? openCore(value, uses);
+    this.#drivers.set(wasm.name, driver);
     return driver;
   }
 
   /** Runs a task on the device, with the help of the worker. */
   async #drive<T extends TaskName>(
-    driver: Core,
-    connection: Connection,
-    { name }: WasmAsset,
+    { driver, connection, asset }: { driver: Core; connection: Connection; asset: ModuleAsset },
     task: T,
     args: Tasks[T]['args'],
     stop: Stop,
@@ -136,7 +130,7 @@ export class Host {
     let isOfWorker = false;
     const helper: Helper = {
       run: (...task) =>
-        connection.run(name, ...task, stop).catch((error) => {
+        connection.run(...task, stop).catch((error) => {
           isOfWorker = true;
           throw error;
         }),
@@ -152,7 +146,7 @@ export class Host {
       if (isOfWorker) throw thrown;
       // What breaks here does not break the worker.
       const { fatal, ...error } = thrown as PlainError;
-      if (fatal) this.#drivers.delete(name);
+      if (fatal) this.#drivers.delete(asset.wasm.name);
       throw { ...error, fatal: false } satisfies PlainError;
     }
   }
@@ -163,70 +157,73 @@ export class Host {
 
   dispose(): void {
     this.#disposed = true;
-    for (const connection of [this.#connection, this.#spare]) {
-      void connection?.then(
+    for (const connection of [...this.#connections.values(), ...this.#spares.values()]) {
+      void connection.then(
         (connection) => connection.close(),
         () => {},
       );
     }
-    this.#connection = this.#spare = undefined;
+    this.#connections.clear();
+    this.#spares.clear();
     for (const driver of this.#drivers.values()) driver.dispose();
   }
 
-  #drop(connection: Connection): void {
+  #drop(connection: Connection, { wasm }: ModuleAsset): void {
     connection.close();
-    this.#connection = undefined;
+    this.#connections.delete(wasm.name);
   }
 
-  /** Sends the connection a module, unless it has it. Returns why the module is the copy. */
-  async #load(connection: Connection, asset: WasmAsset): Promise<string | null> {
-    const { value, whyInlined } = await compiled(asset);
-    const loaded = this.#loaded.get(connection) ?? new Set();
-    this.#loaded.set(connection, loaded);
-    if (!loaded.has(asset)) connection.load(asset.name, value);
-    loaded.add(asset);
-    return whyInlined;
-  }
-
-  async #connect(): Promise<Connection> {
-    const current = await this.#connection?.catch(() => undefined);
+  async #connect(asset: ModuleAsset): Promise<Connection> {
+    const { name } = asset.wasm;
+    const current = await this.#connections.get(name)?.catch(() => undefined);
     if (current?.isAlive) return current;
     this.#throwIfDisposed();
-    const spare = this.#spare;
-    this.#spare = undefined;
-    const open = () => this.#open();
-    this.#connection = spare
+    const spare = this.#spares.get(name);
+    this.#spares.delete(name);
+    const open = () => this.#open(asset);
+    const connection = spare
       ? spare.then((ready) => (ready.isAlive ? ready : open()), open)
       : open();
-    return this.#connection;
+    this.#connections.set(name, connection);
+    return connection;
   }
 
-  /** Starts the second worker, and hands it the module that is in use. */
-  #warm(asset: WasmAsset): void {
-    if (this.#disposed || this.#spare) return;
-    this.#spare = this.#start().then(async (connection) => {
-      await this.#load(connection, asset);
-      return connection;
-    });
+  /** Starts the second worker of a module. */
+  #warm(asset: ModuleAsset): void {
+    const { name } = asset.wasm;
+    if (this.#disposed || this.#spares.has(name)) return;
+    const spare = this.#start(asset);
+    this.#spares.set(name, spare);
     // If it fails, the run that needs it starts another one, and tells why that fails.
-    this.#spare.catch(() => {});
+    spare.catch(() => {});
   }
 
-  /** Starts a worker. */
-  async #start(): Promise<Connection> {
-    return workerConnection(await startWorker(workerCode));
+  /** Starts a worker, while its module is compiled. */
+  async #start({ wasm, worker }: ModuleAsset): Promise<Connection> {
+    const module = compiled(wasm);
+    module.catch(() => {});
+    const thread = await startWorker(worker);
+    try {
+      return workerConnection(thread, await module);
+    } catch (error) {
+      thread.value.terminate();
+      throw error;
+    }
   }
 
-  async #open(): Promise<Connection> {
+  async #open(asset: ModuleAsset): Promise<Connection> {
     if (this.#noWorker === null) {
       try {
-        return await this.#start();
+        return await this.#start(asset);
       } catch (error) {
         if (error instanceof GdelError) throw error;
         this.#noWorker = messageOf(error);
       }
     }
-    return callerConnection(await loadCode(taskCode), this.#gpu, this.#noWorker);
+    const { openCore } = await loadCode(asset.code);
+    const { value, whyInlined } = await compiled(asset.wasm);
+    const core = openCore(value, { gpu: this.#gpu });
+    return callerConnection(core, { whyThread: this.#noWorker, whyInlined });
   }
 }
 

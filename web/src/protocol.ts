@@ -211,11 +211,10 @@ export interface Control {
 }
 
 export type ToWorker =
-  | { type: 'load'; name: ModuleName; module: WebAssembly.Module }
+  | { type: 'load'; module: WebAssembly.Module }
   | {
       type: 'run';
       id: number;
-      module: ModuleName;
       task: TaskName;
       args: Tasks[TaskName]['args'];
       /** Whether to send messages before the last one: for small inputs, they are what takes long. */

@@ -1,6 +1,6 @@
 // Runs on points: triangulations from scratch, and updates of meshes whose points have moved.
 
-import { wasm2d, wasm3d, wasmEdit } from '#assets';
+import { module2d, module3d, moduleEdit } from '#assets';
 import type { Device } from './device.js';
 import { GdelError } from './errors.js';
 import { bytesNow, type Held, isBuffer } from './held.js';
@@ -17,7 +17,7 @@ import {
 } from './options.js';
 import { coordinatesInSlices } from './points.js';
 import type { Done, Edit, MovedMesh, Task, Tasks } from './protocol.js';
-import type { WasmAsset } from './runtime.js';
+import type { ModuleAsset } from './runtime.js';
 import type { UpdateStats } from './stats.js';
 import { throwIfAborted } from './stop.js';
 import type {
@@ -35,19 +35,19 @@ export const BACKENDS: readonly Backend[] = ['auto', 'gpu', 'cpu'];
 /** A dimension. Each constant names its own files alone, so that bundlers leave out the others. */
 interface Kind<T extends Task> {
   task: T;
-  asset: WasmAsset;
+  asset: ModuleAsset;
   dimension: 2 | 3;
 }
 
 export const IN_3D: Kind<'delaunay3d'> = {
   task: 'delaunay3d',
-  asset: wasm3d,
+  asset: module3d,
   dimension: 3,
 };
 
 export const IN_2D: Kind<'delaunay2d'> = {
   task: 'delaunay2d',
-  asset: wasm2d,
+  asset: module2d,
   dimension: 2,
 };
 
@@ -135,7 +135,7 @@ export function updating<T extends Task>(
     if (edit || duplicateOf.some((first, i) => first === i)) {
       const { points } = job.args;
       const args = { ...edit, dimension, points, mesh: moved as MovedMesh, outputs };
-      const done = await maker.host.run(wasmEdit, 'change', args, job.sending, job.options);
+      const done = await maker.host.run(moduleEdit, 'change', args, job.sending, job.options);
       return done as unknown as Done<T>;
     }
     const done = await start(

@@ -2,6 +2,7 @@
 // build serves all of them, by what is there.
 
 import { builtin } from './builtin.js';
+import type { OpenCore } from './core.js';
 import { GdelError } from './errors.js';
 import type { FromWorker, ModuleName, ToWorker } from './protocol.js';
 
@@ -19,6 +20,14 @@ export interface WasmAsset extends Asset {
 export interface WorkerAsset extends Asset {
   /** Starts a worker of the web's interface from the file. */
   start?(): Worker;
+}
+
+/** A wasm module with the code that runs its tasks. */
+export interface ModuleAsset {
+  wasm: WasmAsset;
+  worker: WorkerAsset;
+  /** The tasks, for the calling thread. */
+  code(): Promise<{ openCore: OpenCore }>;
 }
 
 /** Something that was loaded, and why it is the copy; null if it is the file. */

@@ -3,7 +3,7 @@
 
 import { Host } from './host.js';
 import type { TaskName, Tasks } from './protocol.js';
-import type { WasmAsset } from './runtime.js';
+import type { ModuleAsset } from './runtime.js';
 import { throwIfAborted } from './stop.js';
 import type { TaskOptions } from './types.js';
 
@@ -11,7 +11,7 @@ let shared: Host | undefined;
 
 /** Runs a task of a module with options that are checked. */
 export async function runShared<T extends TaskName>(
-  asset: WasmAsset,
+  asset: ModuleAsset,
   task: T,
   args: Tasks[T]['args'],
   options: TaskOptions,

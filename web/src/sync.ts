@@ -1,7 +1,9 @@
 // Triangulations in the calling thread, done when the function returns.
 
-import { taskCode, wasm2d, wasm3d } from '#assets';
+import { code2d, code3d, wasm2d, wasm3d } from '#assets';
 import type { Coordinates } from './arrays.js';
+import type { createBlocking as createBlocking2d } from './core-2d.js';
+import type { createBlocking as createBlocking3d } from './core-3d.js';
 import { GdelError, type PlainError, toGdelError } from './errors.js';
 import { Mesh3 } from './mesh.js';
 import { Mesh2 } from './mesh2.js';
@@ -12,8 +14,6 @@ import type { Tasks } from './protocol.js';
 import { IN_2D, IN_3D, sharedMaker, updating } from './run.js';
 import { loadCode, type WasmAsset } from './runtime.js';
 import type { AccessorOptions, Place, Points, SyncOptions } from './types.js';
-
-type Code = typeof import('./core.js');
 
 /** Something that is loaded once, for functions that cannot wait for it. */
 interface Loadable<T> {
@@ -48,22 +48,30 @@ interface Blocking<F> {
   place: Place;
 }
 
+/** The code of a module that triangulates in the calling thread. */
+interface BlockingCode<F> {
+  createBlocking(module: WebAssembly.Module): F;
+}
+
 async function blocking<F>(
   asset: WasmAsset,
-  create: (code: Code, module: WebAssembly.Module) => F,
+  code: () => Promise<BlockingCode<F>>,
 ): Promise<Blocking<F>> {
-  const [{ value, whyInlined }, code] = await Promise.all([compiled(asset), loadCode(taskCode)]);
-  const triangulate = thrown(() => create(code, value));
+  const [{ value, whyInlined }, { createBlocking }] = await Promise.all([
+    compiled(asset),
+    loadCode(code),
+  ]);
+  const triangulate = thrown(() => createBlocking(value));
   const whyThread = 'the function is synchronous';
   return { triangulate, place: { thread: 'caller', whyThread, whyInlined } };
 }
 
 // Plain objects: bundlers leave them out where they are not used, unlike what a call returns.
-const loadable3d: Loadable<Blocking<ReturnType<Code['createBlocking3d']>>> = {
-  start: () => blocking(wasm3d, (code, module) => code.createBlocking3d(module)),
+const loadable3d: Loadable<Blocking<ReturnType<typeof createBlocking3d>>> = {
+  start: () => blocking(wasm3d, code3d),
 };
-const loadable2d: Loadable<Blocking<ReturnType<Code['createBlocking2d']>>> = {
-  start: () => blocking(wasm2d, (code, module) => code.createBlocking2d(module)),
+const loadable2d: Loadable<Blocking<ReturnType<typeof createBlocking2d>>> = {
+  start: () => blocking(wasm2d, code2d),
 };
 
 /** Loads what {@link delaunay3dSync} needs. Later calls do nothing. */

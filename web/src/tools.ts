@@ -1,6 +1,6 @@
 // Files, verification and synthetic points, in a WebAssembly module of their own.
 
-import { wasmTools } from '#assets';
+import { moduleTools } from '#assets';
 import {
   type Bytes,
   type Coordinates,
@@ -34,7 +34,7 @@ const run = <T extends TaskName>(
   args: Tasks[T]['args'],
   options: TaskOptions,
   transfer: ArrayBuffer[] = [],
-) => runShared(wasmTools, task, args, options, transfer);
+) => runShared(moduleTools, task, args, options, transfer);
 
 /** Options for synthetic points. */
 export interface GenerateOptions extends TaskOptions {

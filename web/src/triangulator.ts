@@ -1,4 +1,4 @@
-import { wasm3d } from '#assets';
+import { module3d } from '#assets';
 import type { Device } from './device.js';
 import { Host } from './host.js';
 import { Mesh3 } from './mesh.js';
@@ -111,12 +111,12 @@ export async function createTriangulator(options?: TriangulatorOptions): Promise
   const host = new Host({ gpu, device, worker });
   try {
     if (backend !== 'cpu') {
-      const { result, place } = await host.run(wasm3d, 'open', { backend }, { transfer: [] }, {});
+      const { result, place } = await host.run(module3d, 'open', { backend }, { transfer: [] }, {});
       return new Triangulator(host, backend, { ...result, ...place }, device);
     }
     // A run on no points shows that the worker starts, or why it does not.
     const args = { points: new Float64Array(0), backend, outputs: [], newKey: nextKey() };
-    const { place } = await host.run(wasm3d, 'delaunay3d', args, { transfer: [] }, {});
+    const { place } = await host.run(module3d, 'delaunay3d', args, { transfer: [] }, {});
     const info = { backend, fallback: null, adapter: null, ...place };
     return new Triangulator(host, backend, info, device);
   } catch (error) {

@@ -1,10 +1,11 @@
-// The worker: one task at a time, each in the core of its wasm module.
+// The worker of a wasm module: one task at a time.
 
+import { openCore } from '#core';
 import { buffersOf } from './arrays.js';
 import { builtin } from './builtin.js';
-import { type Core, makeCore } from './core.js';
+import type { Core } from './core.js';
 import type { PlainError } from './errors.js';
-import type { FromWorker, ModuleName, ToWorker } from './protocol.js';
+import type { FromWorker, ToWorker } from './protocol.js';
 
 /** The port to whoever started this worker. */
 interface Port {
@@ -12,10 +13,10 @@ interface Port {
   listen(handler: (message: ToWorker) => void): void;
 }
 
-/** Returns the core of a module, or why there is none. */
-function coreOf({ name, module }: ToWorker & { type: 'load' }): Core | PlainError {
+/** Returns the core of the module, or why there is none. */
+function coreOrError({ module }: ToWorker & { type: 'load' }): Core | PlainError {
   try {
-    return makeCore(name, module);
+    return openCore(module);
   } catch (error) {
     return error as PlainError;
   }
@@ -23,13 +24,11 @@ function coreOf({ name, module }: ToWorker & { type: 'load' }): Core | PlainErro
 
 /** Serves the tasks that come through `port`. */
 function serve(port: Port): void {
-  /** The modules that were sent, instantiated or not. */
-  const cores = new Map<ModuleName, Core | PlainError>();
+  let core: Core | PlainError;
   const aborted = new Set<number>();
 
-  async function run({ id, module, task, args, isWatched }: ToWorker & { type: 'run' }) {
+  async function run({ id, task, args, isWatched }: ToWorker & { type: 'run' }) {
     try {
-      const core = cores.get(module)!;
       if ('code' in core) throw core;
       const result = await core.run(task, args, {
         onProgress(progress) {
@@ -50,7 +49,7 @@ function serve(port: Port): void {
   }
 
   port.listen((message) => {
-    if (message.type === 'load') cores.set(message.name, coreOf(message));
+    if (message.type === 'load') core = coreOrError(message);
     else if (message.type === 'run') void run(message);
     else aborted.add(message.id);
   });

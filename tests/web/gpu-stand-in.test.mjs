@@ -1,5 +1,5 @@
-// Calls of wgpu that the package makes in other ways: on a device that only takes notes, and in Node by
-// the npm package `webgpu` (Dawn) on Chromium's software driver.
+// What stands for a device where wgpu uses it: on a device that only takes notes, and in Node by the npm
+// package `webgpu` (Dawn) on Chromium's software driver.
 
 import assert from 'node:assert/strict';
 import { existsSync } from 'node:fs';
@@ -17,16 +17,28 @@ const { create } = await import('webgpu');
 const gpu = create([]);
 
 const built = await build({
-  entryPoints: [join(root, 'web/src/wgpu-calls.ts')],
+  entryPoints: [join(root, 'web/src/gpu-stand-in.ts')],
   bundle: true,
   write: false,
   format: 'esm',
 });
-const { wgpuCalls } = await import(
+const { GpuStandIn } = await import(
   `data:text/javascript;base64,${Buffer.from(built.outputFiles[0].contents).toString('base64')}`
 );
 
 const turn = () => new Promise(setImmediate);
+
+/** Returns what stands for a device, and what its passes do with a pipeline. */
+async function standFor(device) {
+  const standIn = new GpuStandIn(
+    { requestAdapter: async () => ({ requestDevice: async () => device }) },
+    true,
+  );
+  const like = await (await standIn.requestAdapter()).requestDevice();
+  const setPipeline = (pipeline) =>
+    like.createCommandEncoder().beginComputePass().setPipeline(pipeline);
+  return { standIn, like, setPipeline };
+}
 
 /** A device that takes notes. Its buffers are mapped, and its pipelines compiled, when the test says so. */
 function notedDevice() {
@@ -45,6 +57,9 @@ function notedDevice() {
     createCommandEncoder() {
       const copies = [];
       return {
+        beginComputePass: () => ({
+          setPipeline: ({ label }) => notes.push(['pipeline', label]),
+        }),
         copyBufferToBuffer: ({ name }, ...copy) => copies.push([name, ...copy]),
         finish: () => copies,
       };
@@ -78,8 +93,7 @@ function notedDevice() {
       return { label };
     },
   };
-  const pass = { setPipeline: ({ label }) => notes.push(['pipeline', label]) };
-  return { device, notes, settling, pass, taken: () => notes.splice(0) };
+  return { device, settling, taken: () => notes.splice(0) };
 }
 
 /** Does something where there are no modules of Node, as in a browser. */
@@ -94,20 +108,20 @@ function elsewhere(work) {
 }
 
 test('pipelines are compiled aside, unless one is needed before the next or the end of the scope', async () => {
-  const { device, settling, pass, taken } = notedDevice();
-  const calls = wgpuCalls(true);
-  const [a, b] = ['a', 'b'].map((label) => calls.createComputePipeline(device, { label }));
+  const { device, settling, taken } = notedDevice();
+  const { like, setPipeline } = await standFor(device);
+  const [a, b] = ['a', 'b'].map((label) => like.createComputePipeline({ label }));
   assert.deepEqual(taken(), [['compile aside', 'a']]);
-  calls.setPipeline(pass, b);
-  calls.setPipeline(pass, b);
-  const c = calls.createComputePipeline(device, { label: 'c' });
+  setPipeline(b);
+  setPipeline(b);
+  const c = like.createComputePipeline({ label: 'c' });
   assert.deepEqual(taken(), [
     ['compile', 'b'],
     ['pipeline', 'b'],
     ['pipeline', 'b'],
   ]);
   let answer;
-  const scope = elsewhere(() => calls.popErrorScope(device));
+  const scope = elsewhere(() => like.popErrorScope());
   const answered = scope.then((error) => (answer = error));
   await turn();
   assert.deepEqual([taken(), answer], [[['compile aside', 'c']], undefined]);
@@ -117,19 +131,19 @@ test('pipelines are compiled aside, unless one is needed before the next or the 
   settling.shift().resolve();
   await answered;
   assert.equal(answer, null);
-  calls.setPipeline(pass, a);
-  calls.setPipeline(pass, c);
+  setPipeline(a);
+  setPipeline(c);
   assert.deepEqual(taken(), [
     ['pipeline', 'a'],
     ['pipeline', 'c'],
   ]);
   // The next scope knows nothing of them.
-  assert.equal(await calls.popErrorScope(device), null);
+  assert.equal(await like.popErrorScope(), null);
   assert.deepEqual(taken(), []);
 });
 
 test('in Node, this thread compiles every third pipeline, before the scope ends', async () => {
-  const { device, settling, pass, taken } = notedDevice();
+  const { device, settling, taken } = notedDevice();
   device.popErrorScope = async () => {
     device.scopes.push('popped');
     return null;
@@ -139,17 +153,17 @@ test('in Node, this thread compiles every third pipeline, before the scope ends'
     assert.deepEqual(device.scopes, []);
     return createComputePipeline(descriptor);
   };
-  const calls = wgpuCalls(true);
+  const { like, setPipeline } = await standFor(device);
   const labels = [...'abcdefg'];
-  const pipelines = labels.map((label) => calls.createComputePipeline(device, { label }));
+  const pipelines = labels.map((label) => like.createComputePipeline({ label }));
   const aside = (label) => ['compile aside', label];
   assert.deepEqual(taken(), [...'acdf'].map(aside));
-  const answered = calls.popErrorScope(device);
+  const answered = like.popErrorScope();
   assert.deepEqual(taken(), [['compile', 'b'], ['compile', 'e'], aside('g')]);
   await turn();
   for (const { resolve } of settling.splice(0)) resolve();
   assert.equal(await answered, null);
-  for (const pipeline of pipelines) calls.setPipeline(pass, pipeline);
+  for (const pipeline of pipelines) setPipeline(pipeline);
   assert.deepEqual(
     taken(),
     labels.map((label) => ['pipeline', label]),
@@ -157,11 +171,11 @@ test('in Node, this thread compiles every third pipeline, before the scope ends'
 });
 
 test('who needs a pipeline while it is compiled aside does not wait', async () => {
-  const { device, settling, pass, taken } = notedDevice();
-  const calls = wgpuCalls(true);
-  const pipeline = calls.createComputePipeline(device, { label: 'a' });
-  const answered = calls.popErrorScope(device);
-  calls.setPipeline(pass, pipeline);
+  const { device, settling, taken } = notedDevice();
+  const { like, setPipeline } = await standFor(device);
+  const pipeline = like.createComputePipeline({ label: 'a' });
+  const answered = like.popErrorScope();
+  setPipeline(pipeline);
   assert.deepEqual(taken(), [
     ['compile aside', 'a'],
     ['compile', 'a'],
@@ -173,28 +187,28 @@ test('who needs a pipeline while it is compiled aside does not wait', async () =
 
 test('a scope has the errors of its pipelines, as wgpu tells them apart', async () => {
   const { device, settling } = notedDevice();
-  const calls = wgpuCalls(true);
-  calls.createComputePipeline(device, { label: 'a' });
-  const answered = calls.popErrorScope(device);
+  const { like } = await standFor(device);
+  like.createComputePipeline({ label: 'a' });
+  const answered = like.popErrorScope();
   settling.shift().reject(new Error('too large'));
   const error = { message: 'too large', constructor: { name: 'GPUValidationError' } };
   assert.deepEqual(await answered, error);
-  calls.createComputePipeline(device, { label: 'a' });
+  like.createComputePipeline({ label: 'a' });
   device.errors = [{ message: 'lost' }];
-  const other = calls.popErrorScope(device);
+  const other = like.popErrorScope();
   settling.shift().resolve();
   assert.deepEqual(await other, { message: 'lost' });
 });
 
 test('large arrays that come again are written through a buffer that stays', async () => {
   const { device, settling, taken } = notedDevice();
-  const calls = wgpuCalls(true);
-  const queue = calls.queue(device);
+  const { standIn, like } = await standFor(device);
+  const { queue } = like;
   const large = (value) => new Uint8Array(2 ** 17).fill(value);
   const run = (value) => {
-    calls.writeBuffer(queue, 'small', 0, new Uint8Array(16).fill(value));
-    calls.writeBuffer(queue, 'points', 8, large(value));
-    calls.submit(queue, ['run']);
+    queue.writeBuffer('small', 0, new Uint8Array(16).fill(value));
+    queue.writeBuffer('points', 8, large(value));
+    queue.submit(['run']);
     return taken();
   };
   const plain = (value) => [
@@ -221,9 +235,9 @@ test('large arrays that come again are written through a buffer that stays', asy
   settling.shift().resolve();
   await turn();
   // What is written afterwards in another way comes afterwards, and what has no room goes another way.
-  calls.writeBuffer(queue, 'points', 8, large(5));
-  calls.writeBuffer(queue, 'points', 8, new Uint8Array(16).fill(6));
-  calls.writeBuffer(queue, 'more', 0, large(7));
+  queue.writeBuffer('points', 8, large(5));
+  queue.writeBuffer('points', 8, new Uint8Array(16).fill(6));
+  queue.writeBuffer('more', 0, large(7));
   assert.deepEqual(taken(), [
     ['unmap', 'staging 0', 5],
     copied,
@@ -231,7 +245,7 @@ test('large arrays that come again are written through a buffer that stays', asy
     ['write', 'more', 0, 7, 2 ** 17],
   ]);
   // Next time there is room for all of it.
-  calls.submit(queue, []);
+  queue.submit([]);
   assert.deepEqual(
     taken().map(([what, name, size]) => [what, name, size]),
     [
@@ -241,14 +255,14 @@ test('large arrays that come again are written through a buffer that stays', asy
     ],
   );
   // A small submission between large ones changes nothing.
-  calls.writeBuffer(queue, 'patch', 0, new Uint8Array(2 ** 16).fill(9));
-  calls.submit(queue, []);
+  queue.writeBuffer('patch', 0, new Uint8Array(2 ** 16).fill(9));
+  queue.submit([]);
   assert.deepEqual(taken(), [['write', 'patch', 0, 9, 2 ** 16], ['submit']]);
   // Without memory for it, all is written as before.
   for (const { reject } of settling.splice(0)) reject(new Error('destroyed, or no memory'));
   await turn();
   assert.deepEqual(run(8), plain(8));
-  calls.end();
+  standIn.end();
   assert.deepEqual(taken(), [['destroy', 'staging 1']]);
 });
 
