@@ -30,6 +30,8 @@ pub struct Scratch<P> {
     boundary: Vec<Facet>,
     /// The tetrahedra that are marked as not in conflict.
     beyond: Vec<u32>,
+    /// The facets of a batch beyond which there are tetrahedra in conflict.
+    found: [u32; BATCH],
     /// Unused slots; the last are for the new tetrahedra.
     free: Vec<u32>,
     vertices: CavityVertices<P>,
@@ -54,6 +56,7 @@ impl<S: MarkedSlots<4>> Insert<3> for S {
             conflict: Vec::new(),
             boundary: Vec::new(),
             beyond: Vec::new(),
+            found: [0; BATCH],
             free: Vec::new(),
             vertices: CavityVertices::new(self.places()),
             edges: EdgeMap::new(),
@@ -169,7 +172,7 @@ fn find_cavity<S: MarkedSlots<4>>(
     start: u32,
     scratch: &mut Scratch<S::Places>,
 ) -> bool {
-    let Scratch { conflict, boundary, beyond, vertices, .. } = scratch;
+    let Scratch { conflict, boundary, beyond, found, vertices, .. } = scratch;
     boundary.clear();
     vertices.clear();
     for v in corners(slots, start) {
@@ -182,7 +185,7 @@ fn find_cavity<S: MarkedSlots<4>>(
     let (mut next, mut kept) = (0, 0);
     while next < boundary.len() {
         let end = boundary.len().min(next + BATCH);
-        let (mut found, mut count) = ([0; BATCH], 0);
+        let mut count = 0;
         for i in next..end {
             let facet = boundary[i];
             let (other, k) = (facet.beyond >> 2, facet.beyond as usize & 3);
