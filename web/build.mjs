@@ -59,6 +59,7 @@ const OUT_NAME = `gdel_${version.replaceAll(/\W/g, '_')}`;
 function buildWasm() {
   for (const name of Object.keys(MODULES)) {
     say(`${name}: wasm-pack`);
+    rmSync(pkg(name), { recursive: true, force: true });
     const packing = ['--profile', 'wasm', '--target', 'web', '--no-pack'];
     const to = ['--out-dir', pkg(name), '--out-name', OUT_NAME];
     const args = ['build', '--mode', 'no-install', ...packing, ...to, join(web, 'wasm')];
@@ -188,9 +189,11 @@ async function buildJs() {
     const core = `core-${name}`;
     await bundle('worker.ts', `worker-${name}.js`, {
       alias: { '#core': join(web, `src/${core}.ts`) },
+      define: { IN_WORKER: 'true' },
     });
-    await bundle(`${core}.ts`, `${core}.js`);
-    await bundle(`${core}.ts`, `${core}.cjs`, { format: 'cjs' });
+    const define = { IN_WORKER: 'false' };
+    await bundle(`${core}.ts`, `${core}.js`, { define });
+    await bundle(`${core}.ts`, `${core}.cjs`, { define, format: 'cjs' });
   }
   writeCopies();
   await bundle('index.ts', 'index.js', withAssets('assets', taskCode('js')));

@@ -6,6 +6,9 @@
  */
 type MakeGlue<Glue> = (globalThis: object) => Glue;
 
+/** Whether this code is bundled for a worker, which never drives the device of another thread. */
+declare const IN_WORKER: boolean;
+
 declare module 'glue:d3' {
   const makeGlue: MakeGlue<typeof import('../pkg/d3/gdel.js')>;
   export default makeGlue;

@@ -24,7 +24,8 @@ const KIND: Kind = {
 export function openCore(module: WebAssembly.Module, uses: Uses = {}): Core {
   const engine = new Engine(KIND, makeGlue, module, uses);
   const { glue, memory, triangulator } = engine;
-  const [runner, driver] = [new Runner(engine), new Driver(engine)];
+  const runner = new Runner(engine);
+  const driver = IN_WORKER ? undefined : new Driver(engine);
 
   return coreOf({
     memory,
@@ -36,7 +37,7 @@ export function openCore(module: WebAssembly.Module, uses: Uses = {}): Core {
         const args = { ...given, outputs: [...KIND.arrays, 'duplicateOf'] };
         const { points, vertexSimplex = false } = args;
         const least = 2 * glue.min_gpu_points_2d();
-        if (helper)
+        if (driver && helper)
           return driver.run(args, control, helper, {
             least,
             begin: (...to) => triangulator.drive2d(...to),

@@ -27,7 +27,8 @@ const KIND: Kind = {
 export function openCore(module: WebAssembly.Module, uses: Uses = {}): Core {
   const engine = new Engine(KIND, makeGlue, module, uses);
   const { glue, memory, triangulator, choice } = engine;
-  const [runner, driver] = [new Runner(engine), new Driver(engine)];
+  const runner = new Runner(engine);
+  const driver = IN_WORKER ? undefined : new Driver(engine);
 
   async function open(backend: Backend): Promise<CoreInfo> {
     const info = await choice.choose(backend);
@@ -52,7 +53,7 @@ export function openCore(module: WebAssembly.Module, uses: Uses = {}): Core {
       async delaunay3d(args, control, helper) {
         const { points, outputs, vertexSimplex } = args;
         const least = 3 * glue.min_gpu_points_3d();
-        if (helper) {
+        if (driver && helper) {
           const hasTrace = outputs.includes('trace');
           return withEmpty(
             await driver.run(args, control, helper, {
