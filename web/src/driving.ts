@@ -7,7 +7,7 @@ import { type Handlers, type ReportProgress, reporting } from './core.js';
 import type { Engine } from './engine.js';
 import { GPU_ERRORS, toPlainError } from './errors.js';
 import { Memory } from './memory.js';
-import type { Finished, Made } from './meshes.js';
+import { type Finished, type Made, simplexBytes } from './meshes.js';
 import type { Control, CoreStats, Helper } from './protocol.js';
 import type { RunArgs } from './running.js';
 import type { Output } from './types.js';
@@ -29,13 +29,14 @@ export class Driver {
   }
 
   async run(args: RunArgs, control: Control, helper: Helper, of: DriveOf): Promise<any> {
-    const { kind, choice, memory, queue } = this.#engine;
+    const { arrayMemory, kind, choice, memory, queue } = this.#engine;
     const started = performance.now();
     const info = await choice.decide(args.backend, args.points, of.least);
     const carrier = new PointCarrier(args.points, kind.dimension, helper, queue);
     const ready = new Memory(args.spare);
     let left: Partial<CoreStats> = {};
     let mesh: Finished | undefined;
+    const { length } = args.points;
     if (info?.backend === 'gpu') {
       try {
         const made = await this.#onDevice(
@@ -51,6 +52,8 @@ export class Driver {
         if (carrier.failure || args.backend === 'gpu' || !GPU_ERRORS.has(error.code))
           throw { ...error, points: carrier.points };
         left = { fallback: error.message, gpu: null, update: null };
+      } finally {
+        arrayMemory.release(length, simplexBytes(mesh));
       }
     }
     if (!mesh) {
@@ -68,8 +71,10 @@ export class Driver {
     { carrier, ready, report }: { carrier: PointCarrier; ready: Memory; report: ReportProgress },
     begin: DriveOf['begin'],
   ): Promise<Finished | { leftToCpu: Partial<CoreStats> }> {
-    const { meshes, triangulator } = this.#engine;
+    const { arrayMemory, kind, meshes, triangulator } = this.#engine;
     const before = meshes.get(moved ?? key);
+    const large = (outputs as string[]).includes(kind.arrays[1]) ? 2 : 1;
+    if (!resident) arrayMemory.serve(ready, large, carrier.points.length);
     if (key === undefined) meshes.drop();
     const made = await carrier.use(() =>
       before ? before.drive(triangulator, carrier, report) : begin(carrier, report),

@@ -5,7 +5,7 @@ import type { Uses } from './core.js';
 import type { Device, Queue } from './device.js';
 import { GpuStandIn } from './gpu-stand-in.js';
 import { type Instance, instantiate } from './instance.js';
-import { MemoryThreads } from './memory.js';
+import { ArrayMemory } from './memory.js';
 import { ResidentMeshes } from './meshes.js';
 import type { CoreInfo, CoreStats, Task } from './protocol.js';
 
@@ -44,7 +44,7 @@ export class Engine<Glue extends AnyGlue = AnyGlue> {
   readonly triangulator: InstanceType<Glue['WasmTriangulator']>;
   readonly choice: BackendChoice;
   readonly meshes: ResidentMeshes;
-  readonly memoryThreads = new MemoryThreads();
+  readonly arrayMemory: ArrayMemory;
   readonly device: Device | undefined;
   readonly #gpu: Gpu | undefined;
   readonly #standIn: GpuStandIn | undefined;
@@ -52,6 +52,7 @@ export class Engine<Glue extends AnyGlue = AnyGlue> {
   constructor(kind: Kind, makeGlue: MakeGlue<Glue>, module: WebAssembly.Module, uses: Uses) {
     const { gpu, device } = uses;
     this.kind = kind;
+    this.arrayMemory = new ArrayMemory(kind.bytesPerCoordinate);
     this.device = device;
     this.#gpu = (gpu ?? globalThis.navigator?.gpu) as Gpu | undefined;
     // Nothing is to hold up the thread of a caller whose worker computes.
@@ -85,7 +86,7 @@ export class Engine<Glue extends AnyGlue = AnyGlue> {
 
   dispose(): void {
     this.meshes.drop();
-    this.memoryThreads.end();
+    this.arrayMemory.end();
     this.#standIn?.end();
     if (!this.#gpu?.isGiven) void this.triangulator.close();
   }

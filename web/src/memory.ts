@@ -25,6 +25,11 @@ export class Memory {
     this.#room = ready.length > 0 ? 1.05 : 1;
   }
 
+  /** Whether the caller has given none. */
+  get isEmpty(): boolean {
+    return this.#ready.length === 0;
+  }
+
   add(buffer: ArrayBuffer): void {
     this.#ready.push(buffer);
   }
@@ -54,7 +59,7 @@ interface Thread {
 }
 
 /** Threads that get memory ready, one for each array. They are started when they are first needed. */
-export class MemoryThreads {
+class MemoryThreads {
   readonly #threads: Thread[] = [];
   #isBroken = false;
   #id = 0;
@@ -88,6 +93,34 @@ export class MemoryThreads {
   end(): void {
     this.#isBroken = true;
     for (const thread of this.#threads) thread.end();
+  }
+}
+
+/** Memory for the large arrays of runs on the GPU, as much as the run before tells. */
+export class ArrayMemory {
+  readonly #threads = new MemoryThreads();
+  /** Of the simplices in the run before. */
+  #bytesPerCoordinate: number;
+
+  constructor(bytesPerCoordinate: number) {
+    this.#bytesPerCoordinate = bytesPerCoordinate;
+  }
+
+  /** Gets memory ready for `count` arrays of a run with so many coordinates, unless the caller has given some. */
+  serve(memory: Memory, count: number, coordinates: number): void {
+    if (!memory.isEmpty) return;
+    this.#threads.serve(memory, count, Math.ceil(this.#bytesPerCoordinate * coordinates));
+  }
+
+  /** Says that the run has ended, and how many bytes its simplices take, if it made any. */
+  release(coordinates: number, bytes?: number): void {
+    this.#threads.release();
+    // The next run may have a few more of them.
+    if (bytes && coordinates > 0) this.#bytesPerCoordinate = (1.02 * bytes) / coordinates;
+  }
+
+  end(): void {
+    this.#threads.end();
   }
 }
 

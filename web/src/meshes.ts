@@ -40,8 +40,9 @@ export interface Finished extends MeshArrays {
   resident?: MadeResident;
 }
 
-/** An array of either dimension. */
-type Name = 'tetrahedra' | 'neighbors' | 'hull' | 'triangles' | 'halfedges';
+/** Returns the bytes of the simplices of a mesh, if it has been made and is not on the device. */
+export const simplexBytes = (mesh: Finished | undefined): number | undefined =>
+  (mesh?.tetrahedra ?? mesh?.triangles)?.byteLength;
 
 export class ResidentMeshes {
   readonly #arrays: readonly string[];
@@ -113,11 +114,14 @@ export class ResidentMeshes {
       this.#device
         ? bytesOf(this.#device, buffer, counts[i === 2 ? 1 : 0] && buffer.size, take)
         : mesh.read(i, take);
-    const arrays = this.#arrays.map(async (array, i) => {
-      if (i > 0 && !outputs.includes(array)) return [];
+    const arrays: MeshArrays = {};
+    // One after the other: each has several pieces on their way.
+    for (const [i, array] of this.#arrays.entries()) {
+      if (i > 0 && !outputs.includes(array)) continue;
       const { buffer, length } = await bytes(buffers[i]!, i);
-      return [[array as Name, new (i === 1 ? Int32Array : Uint32Array)(buffer, 0, length / 4)]];
-    });
-    return Object.fromEntries((await Promise.all(arrays)).flat());
+      const view = new (i === 1 ? Int32Array : Uint32Array)(buffer, 0, length / 4);
+      Object.assign(arrays, { [array]: view });
+    }
+    return arrays;
   }
 }

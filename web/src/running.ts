@@ -4,7 +4,7 @@ import { type ReportProgress, reporting } from './core.js';
 import type { Engine } from './engine.js';
 import { GPU_ERRORS, type PlainError } from './errors.js';
 import { Memory } from './memory.js';
-import type { Finished, Made } from './meshes.js';
+import { type Finished, type Made, simplexBytes } from './meshes.js';
 import type { Control, Tasks } from './protocol.js';
 
 /** What runs have in common. */
@@ -31,31 +31,27 @@ export interface RunOf {
 /** Triangulates, and adds to the meshes what is only known in JavaScript. */
 export class Runner {
   readonly #engine: Engine;
-  /** Of the simplices in the run before. */
-  #bytesPerCoordinate: number;
 
   constructor(engine: Engine) {
     this.#engine = engine;
-    this.#bytesPerCoordinate = engine.kind.bytesPerCoordinate;
   }
 
   async run(args: RunArgs, control: Control, of: RunOf): Promise<any> {
-    const { choice, meshes, memoryThreads } = this.#engine;
+    const { choice, meshes, arrayMemory } = this.#engine;
     const started = performance.now();
     const { points, backend, resident = false, spare, key } = args;
     const info = await choice.decide(backend, points, of.least);
     const isOnGpu = info?.backend === 'gpu';
     if (!isOnGpu) control.onBlocking();
     const ready = new Memory(spare);
-    if (isOnGpu && !resident && !spare?.length)
-      memoryThreads.serve(ready, of.large, Math.ceil(this.#bytesPerCoordinate * points.length));
+    if (isOnGpu && !resident) arrayMemory.serve(ready, of.large, points.length);
     const wanted: Wanted = {
       backend: info?.backend === 'cpu' ? 'cpu' : backend,
       onDevice: resident,
       take: ready.take,
       report: reporting(control),
     };
-    let mesh: Finished;
+    let mesh: Finished | undefined;
     try {
       if (isOnGpu && key !== undefined) {
         mesh = await this.#updateArrays(args, wanted, of, ready);
@@ -64,11 +60,8 @@ export class Runner {
         mesh = await this.#runOrUpdate(args, wanted, of);
       }
     } finally {
-      memoryThreads.release();
+      arrayMemory.release(points.length, isOnGpu && !resident ? simplexBytes(mesh) : undefined);
     }
-    const { byteLength } = mesh.tetrahedra ?? mesh.triangles ?? points;
-    // The next run may have a few more of them.
-    if (isOnGpu && !resident) this.#bytesPerCoordinate = (1.02 * byteLength) / (points.length || 1);
     const { readyBytes } = ready;
     const stats = this.#engine.complete(mesh.stats, { info, started, readyBytes });
     return { ...mesh, points, stats };
