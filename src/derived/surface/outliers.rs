@@ -87,8 +87,8 @@ fn reach<const D: usize, const N: usize>(complex: &Complex<'_, D, N>, stars: &Cs
     let squared = |w: u32| vector::squared_norm(vector::minus(complex.point(w), point));
     let mut near = neighbors(complex, stars, v);
     near.sort_unstable_by(|&a, &b| squared(a).total_cmp(&squared(b)));
-    for w in near[..near.len().min(NEIGHBORS - 1)].to_vec() {
-        near.extend(neighbors(complex, stars, w));
+    for i in 0..near.len().min(NEIGHBORS - 1) {
+        near.extend(neighbors(complex, stars, near[i]));
     }
     near.sort_unstable();
     near.dedup();

@@ -126,15 +126,14 @@ fn terms<const D: usize>(local: [f64; D]) -> ([f64; MAX_TERMS], usize) {
     let mut terms = [0.0; MAX_TERMS];
     terms[0] = 1.0;
     let mut count = 1;
-    for a in 1..D {
-        terms[count] = local[a];
+    let mut add = |term: f64| {
+        terms[count] = term;
         count += 1;
-    }
-    for a in 1..D {
-        for b in a..D {
-            terms[count] = local[a] * local[b];
-            count += 1;
-        }
+    };
+    let (_, coordinates) = local.split_at(1);
+    coordinates.iter().for_each(|&x| add(x));
+    for (a, x) in coordinates.iter().enumerate() {
+        coordinates[a..].iter().for_each(|y| add(x * y));
     }
     (terms, count)
 }
