@@ -12,6 +12,7 @@ mod web;
 #[cfg(not(target_arch = "wasm32"))]
 pub(crate) use native::*;
 #[cfg(target_arch = "wasm32")]
+#[cfg_attr(not(feature = "gpu"), expect(unused_imports, reason = "nothing of it is public then"))]
 pub use web::*;
 
 #[cfg(any(target_arch = "wasm32", not(feature = "threads")))]
