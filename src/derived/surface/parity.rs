@@ -76,7 +76,7 @@ mod tests {
         sets.unite(0, 1, true);
         // The first word counts.
         sets.unite(8, 3, true);
-        let sides = [false, false, true, true, false, false, true];
+        let sides = [false, true, true, false, false, true, true];
         for (i, side) in (2..).zip(sides) {
             assert_eq!(sets.find(i), (2, side ^ sides[0]), "{i}");
         }
