@@ -16,7 +16,16 @@ const root = join(dirname(fileURLToPath(import.meta.url)), '..');
 const RESULTS = join(root, 'benches/results');
 const PAGE = join(root, 'BENCHMARKS.md');
 // In the order of the page; others follow.
-const ORDER = ['gpu-3d', 'moved', 'gpu-2d', 'cpu-threads', 'cpu-peers', 'browser', 'page', 'npm-cpu'];
+const ORDER = [
+  'gpu-3d',
+  'moved',
+  'gpu-2d',
+  'cpu-threads',
+  'cpu-peers',
+  'browser',
+  'page',
+  'npm-cpu',
+];
 
 const INTRODUCTION = `<!-- Made of benches/results/*.json by scripts/benchmarks.mjs: do not edit. -->
 # Benchmarks
