@@ -59,7 +59,7 @@ interface Thread {
 }
 
 /** Threads that get memory ready, one for each array. They are started when they are first needed. */
-class MemoryThreads {
+export class MemoryThreads {
   readonly #threads: Thread[] = [];
   #isBroken = false;
   #id = 0;
