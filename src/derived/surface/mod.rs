@@ -110,7 +110,7 @@ pub enum Side {
 /// ```
 /// use gdel::{Side, Surface, SurfaceOptions};
 ///
-/// // Points on a sphere, along a spiral, and one at its centre.
+/// // Points on a sphere, along a spiral, and one at its centre, which is far from all others.
 /// let mut points: Vec<[f64; 3]> = (0..1000)
 ///     .map(|i| {
 ///         let (z, turn) = (1.0 - (2 * i + 1) as f64 / 1000.0, 2.399963 * i as f64);
@@ -126,7 +126,7 @@ pub enum Side {
 /// assert_eq!((surface.components(), surface.genus()), (1, 0));
 /// assert_eq!((surface.vertices().len(), surface.facets().len()), (1000, 1996));
 /// assert!((surface.volume() / (4.0 / 3.0 * std::f64::consts::PI) - 1.0).abs() < 0.02);
-/// assert_eq!(surface.sides()[1000], Side::Inside);
+/// assert_eq!((surface.isolated(), surface.sides()[1000]), (1, Side::Outside));
 /// # Ok::<(), gdel::Error>(())
 /// ```
 #[derive(Debug, Clone)]
