@@ -1,6 +1,7 @@
 // The files beside this one, and modules that hold copies of them for where a URL leads nowhere:
 // bundlers without assets, strange servers, opaque origins. Each URL and each import is written out
-// and stands alone, so that bundlers find what they need and leave out what is not used.
+// and stands alone, so that bundlers find what they need and leave out what is not used. webpack puts workers of
+// one name into one file.
 
 import type { ModuleAsset, WasmAsset, WorkerAsset } from './runtime.js';
 
@@ -15,7 +16,10 @@ export const wasm3d: WasmAsset = {
 export const code3d = () => import('./core-3d.js');
 const worker3d: WorkerAsset = {
   start: () =>
-    new Worker(new URL('./worker-3d.js', import.meta.url), { type: 'module', name: 'gdel' }),
+    new Worker(new URL('./worker-3d.js', import.meta.url), {
+      type: 'module',
+      name: 'gdel-3d',
+    }),
   file: () => new URL('./worker-3d.js', here()),
   copy: () => import('text:d3'),
 };
@@ -29,7 +33,10 @@ export const wasm2d: WasmAsset = {
 export const code2d = () => import('./core-2d.js');
 const worker2d: WorkerAsset = {
   start: () =>
-    new Worker(new URL('./worker-2d.js', import.meta.url), { type: 'module', name: 'gdel' }),
+    new Worker(new URL('./worker-2d.js', import.meta.url), {
+      type: 'module',
+      name: 'gdel-2d',
+    }),
   file: () => new URL('./worker-2d.js', here()),
   copy: () => import('text:d2'),
 };
@@ -43,7 +50,10 @@ const wasmEdit: WasmAsset = {
 const codeEdit = () => import('./core-edit.js');
 const workerEdit: WorkerAsset = {
   start: () =>
-    new Worker(new URL('./worker-edit.js', import.meta.url), { type: 'module', name: 'gdel' }),
+    new Worker(new URL('./worker-edit.js', import.meta.url), {
+      type: 'module',
+      name: 'gdel-edit',
+    }),
   file: () => new URL('./worker-edit.js', here()),
   copy: () => import('text:edit'),
 };
@@ -57,7 +67,10 @@ const wasmTools: WasmAsset = {
 const codeTools = () => import('./core-tools.js');
 const workerTools: WorkerAsset = {
   start: () =>
-    new Worker(new URL('./worker-tools.js', import.meta.url), { type: 'module', name: 'gdel' }),
+    new Worker(new URL('./worker-tools.js', import.meta.url), {
+      type: 'module',
+      name: 'gdel-tools',
+    }),
   file: () => new URL('./worker-tools.js', here()),
   copy: () => import('text:tools'),
 };
@@ -71,7 +84,10 @@ const wasmDerived: WasmAsset = {
 const codeDerived = () => import('./core-derived.js');
 const workerDerived: WorkerAsset = {
   start: () =>
-    new Worker(new URL('./worker-derived.js', import.meta.url), { type: 'module', name: 'gdel' }),
+    new Worker(new URL('./worker-derived.js', import.meta.url), {
+      type: 'module',
+      name: 'gdel-derived',
+    }),
   file: () => new URL('./worker-derived.js', here()),
   copy: () => import('text:derived'),
 };
