@@ -155,8 +155,7 @@ impl PredicatesAt<'_, '_, 3> {
         let det = lifted_determinant(a, b, c, &d);
         // The sum is no less than the greatest, and needs no comparisons, which processors often predict wrongly.
         let [la, lb, lc, ld] = [a, b, c, &d].map(|row| row.0[4]);
-        let is_certain =
-            (det.abs() > self.context.in_sphere_bound) | (det * det > squared_bound((la + lb) + (lc + ld)));
+        let is_certain = det.abs() > self.context.in_sphere_bound || det * det > squared_bound((la + lb) + (lc + ld));
         (det, is_certain)
     }
 
