@@ -1,6 +1,6 @@
 //! JavaScript objects from Rust values.
 
-use js_sys::{Int32Array, Object, Reflect};
+use js_sys::{Object, Reflect};
 use wasm_bindgen::JsValue;
 
 use gdel::Error;
@@ -20,8 +20,9 @@ pub(crate) fn object<const N: usize>(entries: [(&str, JsValue); N]) -> JsValue {
 }
 
 /// Copies indices into a signed array, where [`NONE`](gdel::NONE) is −1.
-pub(crate) fn signed(indices: &[u32]) -> Int32Array {
-    Int32Array::new_from_slice(bytemuck::cast_slice(indices))
+#[cfg(any(feature = "d2", feature = "d3", feature = "edit", feature = "derived"))]
+pub(crate) fn signed(indices: &[u32]) -> js_sys::Int32Array {
+    js_sys::Int32Array::new_from_slice(bytemuck::cast_slice(indices))
 }
 
 /// Creates an `Error` with a `code`.
