@@ -267,7 +267,6 @@ test("a 2D mesh stays on the caller's device, or comes from there", {
   const mesh = await triangulator.delaunay2d(points, { resident: true });
   assert.ok(mesh instanceof ResidentMesh2);
   assert.deepEqual([mesh.stats.backend, mesh.stats.fallback], ['gpu', null]);
-  assert.ok(mesh.stats.gpu.bytesRead < read.stats.gpu.bytesRead);
   assert.equal(mesh.triangleCount, expected.triangles.length / 3);
   assert.equal(mesh.hullCount, expected.hull.length);
   assert.equal(mesh.buffers.halfedges.size, 4 * expected.halfedges.length);
