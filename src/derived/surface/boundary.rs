@@ -213,13 +213,8 @@ pub(super) fn is_closed<const D: usize>(facets: &[[u32; D]]) -> bool {
             match (D, is_reversed) {
                 (3, false) => from << 32 | to,
                 (3, true) => to << 32 | from,
-                _ => {
-                    if is_reversed {
-                        to
-                    } else {
-                        from
-                    }
-                }
+                (_, false) => from,
+                (_, true) => to,
             }
         };
         let per_facet = if D == 3 { 3 } else { 1 };

@@ -151,4 +151,56 @@ impl<const N: usize> Network<N> {
 }
 
 #[cfg(test)]
-mod tests {}
+mod tests {
+    use super::*;
+    use crate::{input::points::Points, mesh::Mesh};
+
+    /// Compares the cut of a small mesh with all others, for several costs and votes.
+    fn check<const D: usize, const N: usize>(
+        mesh: &impl Mesh<D, N>,
+        points: Points<'_, D>,
+        mut random: impl FnMut(u32) -> u32,
+    ) {
+        let complex = Complex::new(mesh, points).expect("a mesh of these points");
+        let count = complex.simplices.len();
+        assert!((2..16).contains(&count), "{count} simplices");
+        for _ in 0..20 {
+            let costs: Vec<[u16; N]> = (0..count).map(|_| std::array::from_fn(|_| random(4) as u16)).collect();
+            let excess: Vec<i32> = (0..count).map(|_| random(9) as i32 - 4).collect();
+            let is_inside = |mask: usize, t: usize| mask >> t & 1 == 1;
+            let cost = |mask: usize| {
+                let votes = (0..count).filter(|&t| is_inside(mask, t) != (excess[t] > 0)).map(|t| excess[t].abs());
+                let facets = (0..count).flat_map(|t| (0..N).map(move |k| (t, k)));
+                let between = facets.filter_map(|(t, k)| {
+                    let across =
+                        complex.across(t, k).filter(|&across| is_inside(mask, t) && !is_inside(mask, across))?;
+                    Some(i32::from(costs[t][k].max(costs[across][complex.facet_towards(across, t)])))
+                });
+                votes.sum::<i32>() + between.sum::<i32>()
+            };
+            let least = (0..1 << count).map(cost).min();
+            // The union of all that have the least cost is one of them.
+            let expected = (0..1 << count).filter(|&mask| Some(cost(mask)) == least).fold(0, |all, mask| all | mask);
+            let found = inside(&complex, &costs, &excess);
+            assert!((0..count).all(|t| found[t] == is_inside(expected, t)), "{costs:?}, {excess:?}");
+        }
+    }
+
+    #[test]
+    fn the_cut_is_the_least_one_with_the_smallest_outside() {
+        let mut state = 1u32;
+        let mut random = move |below: u32| {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (state >> 16) % below
+        };
+        for _ in 0..4 {
+            let points: Vec<[f64; 2]> = (0..8).map(|_| [random(100), random(100)].map(f64::from)).collect();
+            let mesh = crate::delaunay2d(&points).expect("points of a plane");
+            check(&mesh, (&points).into(), &mut random);
+            let points: Vec<[f64; 3]> =
+                (0..7).map(|_| [random(100), random(100), random(100)].map(f64::from)).collect();
+            let mesh = crate::delaunay3d(&points).expect("points of space");
+            check(&mesh, (&points).into(), &mut random);
+        }
+    }
+}

@@ -1,5 +1,8 @@
 //! The nearest neighbours of points, by a k-d tree (Bentley 1975).
+//!
+//! [`Locator`](crate::Locator) finds them on a mesh. Points that were moved have none.
 
+use crate::geometry::vector;
 use std::collections::BinaryHeap;
 
 /// Ranges of so few points are searched one by one.
@@ -57,8 +60,7 @@ impl<'a, const D: usize> Tree<'a, D> {
         nearest: &mut BinaryHeap<(u64, u32)>,
     ) {
         let consider = |i: u32, nearest: &mut BinaryHeap<(u64, u32)>| {
-            let p = self.points[i as usize];
-            let squared: f64 = (0..D).map(|axis| (p[axis] - query[axis]) * (p[axis] - query[axis])).sum();
+            let squared = vector::squared_norm(vector::minus(self.points[i as usize], query));
             nearest.push((squared.to_bits(), i));
             if nearest.len() > count {
                 nearest.pop();

@@ -22,8 +22,8 @@ const SAMPLES: usize = 2000;
 /// The number of points that is worth handing to another thread.
 const GRAIN: usize = 1 << 10;
 
-/// Returns whether each vertex is isolated: farther from the sixth nearest one than four times the median
-/// of all vertices, and also than four times the median of its neighbours, so that scans may become sparse with the distance.
+/// Returns whether each vertex is isolated: its sixth nearest vertex is more than four times as far away as the median over
+/// all vertices, and as the median over its neighbours. The second condition lets scans become sparse with the distance.
 pub(super) fn isolated<const D: usize, const N: usize>(complex: &Complex<'_, D, N>, stars: &Csr) -> Vec<bool> {
     let count = complex.points().len() as u32;
     if stars.len() < MIN_POINTS {
@@ -98,7 +98,7 @@ fn reach<const D: usize, const N: usize>(complex: &Complex<'_, D, N>, stars: &Cs
 }
 
 /// Returns the median of numbers; `None` if there are none.
-fn median(numbers: &mut [f64]) -> Option<f64> {
+pub(super) fn median(numbers: &mut [f64]) -> Option<f64> {
     numbers.sort_unstable_by(f64::total_cmp);
     numbers.get(numbers.len() / 2).copied()
 }

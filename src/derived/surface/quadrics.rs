@@ -4,7 +4,7 @@
 //! jets of Cazals and Pouget, *Estimating differential quantities using polynomial fitting of osculating
 //! jets*, 2003). Unlike planes, quadrics do not shrink what is curved.
 
-use super::neighbors::Tree;
+use super::{neighbors::Tree, outliers::median};
 use crate::{
     geometry::vector,
     parallel::{self, Threads},
@@ -47,9 +47,7 @@ pub(super) fn noise<const D: usize>(points: &[[f64; D]]) -> f64 {
         let fits = samples[range].iter().map(|&i| fit(points, &tree, i, &mut near));
         fits.map(|fit| if fit.spacing > 0.0 { fit.residual / fit.spacing } else { 0.0 }).collect::<Vec<f64>>()
     });
-    let mut ratios = parallel::joined(parts);
-    ratios.sort_unstable_by(f64::total_cmp);
-    ratios[ratios.len() / 2]
+    median(&mut parallel::joined(parts)).unwrap_or(0.0)
 }
 
 /// Returns the points, each moved onto the quadric through its neighbours.
