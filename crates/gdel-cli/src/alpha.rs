@@ -1,7 +1,7 @@
 //! `gdel alpha`: the alpha shape of points.
 
 use super::{
-    derive::{Common, Found, Number, SolidFormat, parse_solid, write},
+    derive::{Common, Found, Number, SolidFormat, parse_solid, write_cells, write_triangles},
     dimension::{Dimension, Triangulation},
     failure::Failure,
 };
@@ -10,7 +10,7 @@ use gdel::{
     AlphaShape, Error, Mesh2, Mesh3, Points,
     internals::{derived::AlphaEdges, geometry::Euclidean},
 };
-use gdel_io::{CellShape, Grid, files::ResultOutput};
+use gdel_io::{CellShape, files::ResultOutput};
 use std::num::NonZeroUsize;
 
 /// Compute the alpha shape of points: a solid for a radius alpha, and its surface.
@@ -72,28 +72,17 @@ where
         return Err(Failure::Usage(ErrorKind::ArgumentConflict, "--components needs --alpha auto".into()));
     }
     let components = components.map_or(1, NonZeroUsize::get);
-    let input = common.input()?;
-    common.check(output, &[input.path()])?;
-    let cloud = common.read::<D>(&input)?;
+    let cloud = common.read_for::<D, _>(output)?;
     let points = Points::from(&cloud);
     let (_, parts) = common.run::<M, D, N, _>(points, "alpha", |mesh| find(mesh, points, *alpha, components))?;
     let Parts { solid, surface } = parts;
     match output.format() {
         SolidFormat::Vtu => {
             let shape = if D == 2 { CellShape::Triangle } else { CellShape::Tetrahedron };
-            let mut grid = Grid::new(points, shape);
-            solid.iter().for_each(|simplex| grid.push(*simplex));
-            write(output, |to| grid.write_vtu(to))
+            write_cells(output, points, shape, &solid)
         }
-        SolidFormat::Surface(format) => {
-            // Three vertices: those of a facet in 3D, or of a simplex in 2D.
-            let triangles: Vec<[u32; 3]> = if D == 2 {
-                solid.iter().map(|simplex| std::array::from_fn(|k| simplex[k])).collect()
-            } else {
-                surface.iter().map(|facet| std::array::from_fn(|k| facet[k])).collect()
-            };
-            write(output, |to| format.write_triangles(to, points, &triangles, "alpha shape"))
-        }
+        SolidFormat::Surface(format) if D == 2 => write_triangles(output, format, points, &solid, "alpha shape"),
+        SolidFormat::Surface(format) => write_triangles(output, format, points, &surface, "alpha shape"),
     }
 }
 

@@ -12,7 +12,7 @@ use clap::{
 };
 use gdel::{Backend, Error, Points, Triangulator, stats::Fallback};
 use gdel_io::{
-    Mesh, PointCloud, PointFormat, SurfaceFormat,
+    CellShape, Grid, Mesh, PointCloud, PointFormat, SurfaceFormat,
     files::{Input, ResultOutput},
 };
 use serde::{Serialize, Serializer};
@@ -204,6 +204,13 @@ impl Common {
         read::<D>(input)
     }
 
+    /// Checks the output as [`check`](Self::check) does, and reads the points.
+    pub(super) fn read_for<const D: usize, F: Copy>(&self, output: &ResultOutput<F>) -> Result<PointCloud<D>, Failure> {
+        let input = self.input()?;
+        self.check(output, &[input.path()])?;
+        self.read::<D>(&input)
+    }
+
     /// Reads the points, and the values in a column of their file.
     pub(super) fn read_with_values<const D: usize>(
         &self,
@@ -275,4 +282,28 @@ pub(super) fn write<F: Copy>(
 ) -> Result<(), Failure> {
     let _progress = Progress::new("writing");
     Ok(output.write(content)?)
+}
+
+/// Writes simplices as cells of a grid.
+pub(super) fn write_cells<F: Copy, const D: usize, const K: usize>(
+    output: &ResultOutput<F>,
+    points: Points<'_, D>,
+    shape: CellShape,
+    cells: &[[u32; K]],
+) -> Result<(), Failure> {
+    let mut grid = Grid::new(points, shape);
+    cells.iter().for_each(|cell| grid.push(*cell));
+    write(output, |to| grid.write_vtu(to))
+}
+
+/// Writes triangles, which are simplices in 2D or facets in 3D, under a name.
+pub(super) fn write_triangles<F: Copy, const D: usize, const K: usize>(
+    output: &ResultOutput<F>,
+    format: SurfaceFormat,
+    points: Points<'_, D>,
+    triangles: &[[u32; K]],
+    name: &'static str,
+) -> Result<(), Failure> {
+    let triangles: Vec<[u32; 3]> = triangles.iter().map(|vertices| std::array::from_fn(|k| vertices[k])).collect();
+    write(output, |to| format.write_triangles(to, points, &triangles, name))
 }

@@ -1,7 +1,7 @@
 //! `gdel surface`: one closed surface through the points of a scan.
 
 use super::{
-    derive::{Common, Found, Number, SolidFormat, parse_solid, write},
+    derive::{Common, Found, Number, SolidFormat, parse_solid, write_cells, write_triangles},
     dimension::{Dimension, Triangulation},
     failure::Failure,
 };
@@ -10,8 +10,7 @@ use gdel::{
     Error, Mesh2, Mesh3, Points, Side, Surface, SurfaceOptions,
     internals::{derived::SurfaceMesh, geometry::Euclidean},
 };
-use gdel_io::{CellShape, Grid, PointBuf, SurfaceFormat, files::ResultOutput};
-use std::io;
+use gdel_io::{CellShape, PointBuf, files::ResultOutput};
 
 /// Find the closed surface that points of a scan lie on: no normals are needed.
 #[derive(Args)]
@@ -62,34 +61,23 @@ where
     Euclidean: SurfaceMesh<D, N>,
 {
     let Arguments { common, output, .. } = arguments;
-    let input = common.input()?;
-    common.check(output, &[input.path()])?;
-    let cloud = common.read::<D>(&input)?;
+    let cloud = common.read_for::<D, _>(output)?;
     let points = Points::from(&cloud);
     let mut options = SurfaceOptions::default();
     options.min_part = arguments.min_part;
     options.drop_isolated = !arguments.keep_isolated;
     options.smooth = arguments.smooth.0;
     let (_, surface) = common.run::<M, D, N, _>(points, "surface", |mesh| find(mesh, points, &options))?;
+    let moved = surface.moved_points().map_or(points, Points::F64);
     match output.format() {
         SolidFormat::Vtu if D == 2 => {
-            let mut grid = Grid::new(Points::F64(surface.vertices()), CellShape::Line);
-            surface.facets().iter().for_each(|edge| grid.push(*edge));
-            write(output, |to| grid.write_vtu(to))
+            write_cells(output, Points::F64(surface.vertices()), CellShape::Line, surface.facets())
         }
-        SolidFormat::Vtu => {
-            let points = surface.moved_points().map_or(points, Points::F64);
-            let mut grid = Grid::new(points, CellShape::Tetrahedron);
-            surface.solid().iter().for_each(|simplex| grid.push(*simplex));
-            write(output, |to| grid.write_vtu(to))
-        }
-        SolidFormat::Surface(format) if D == 2 => {
-            let points = surface.moved_points().map_or(points, Points::F64);
-            write(output, |to| write_triangles(format, to, points, surface.solid()))
-        }
+        SolidFormat::Vtu => write_cells(output, moved, CellShape::Tetrahedron, surface.solid()),
+        SolidFormat::Surface(format) if D == 2 => write_triangles(output, format, moved, surface.solid(), "surface"),
         SolidFormat::Surface(format) => {
             let vertices = in_precision_of(points, surface.vertices());
-            write(output, |to| write_triangles(format, to, (&vertices).into(), surface.facets()))
+            write_triangles(output, format, (&vertices).into(), surface.facets(), "surface")
         }
     }
 }
@@ -137,14 +125,4 @@ fn in_precision_of<const D: usize>(points: Points<'_, D>, vertices: &[[f64; D]])
         Points::F32(_) => PointBuf::F32(vertices.iter().map(|p| p.map(|x| x as f32)).collect()),
         Points::F64(_) => PointBuf::F64(vertices.to_vec()),
     }
-}
-
-fn write_triangles<const D: usize, const K: usize>(
-    format: SurfaceFormat,
-    to: &mut dyn io::Write,
-    points: Points<'_, D>,
-    triangles: &[[u32; K]],
-) -> io::Result<()> {
-    let triangles: Vec<[u32; 3]> = triangles.iter().map(|vertices| std::array::from_fn(|k| vertices[k])).collect();
-    format.write_triangles(to, points, &triangles, "surface")
 }

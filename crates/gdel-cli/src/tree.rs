@@ -39,9 +39,7 @@ where
     Euclidean: Geometry<D, N>,
 {
     let Arguments { common, output } = arguments;
-    let input = common.input()?;
-    common.check(output, &[input.path()])?;
-    let cloud = common.read::<D>(&input)?;
+    let cloud = common.read_for::<D, _>(output)?;
     let points = Points::from(&cloud);
     let (_, tree) = common.run::<M, D, N, _>(points, "tree", |mesh| {
         let tree = SpanningTree::new(mesh, points)?;

@@ -52,9 +52,7 @@ where
     Euclidean: VoronoiShapes<D, N>,
 {
     let Arguments { common, clip, output } = arguments;
-    let input = common.input()?;
-    common.check(output, &[input.path()])?;
-    let cloud = common.read::<D>(&input)?;
+    let cloud = common.read_for::<D, _>(output)?;
     let points = Points::from(&cloud);
     let (_, result) = common.run::<M, D, N, _>(points, "voronoi", |mesh| {
         let clip = match (clip, points.bounds()) {
