@@ -109,6 +109,7 @@ pub mod gpu {
     pub mod phase1 {
         pub use crate::gpu::phase1::{
             Aliases, Begin, Budget, Buffers, Finish, MemorySettings, Phase1, Phase1Output, Phase1Run, Settings, Sizes,
+            WayToHost,
         };
     }
     pub mod points {

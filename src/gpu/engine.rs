@@ -15,7 +15,7 @@ use crate::{
         device_mesh::{DeviceMesh, MeshArrays},
         dim::{Corners, Dim},
         host::{Answer, Fit, Fitted, Here, Host, Merged, Work},
-        phase1::{Begin, Finish, Phase1, Phase1Run, Phase1Stats, Settings},
+        phase1::{Begin, Finish, Phase1, Phase1Run, Phase1Stats, Settings, WayToHost},
         progress,
         update::PARTED,
     },
@@ -151,7 +151,7 @@ where
     pub(crate) options: &'a Options,
     /// The name of the adapter.
     pub(crate) adapter: &'a str,
-    /// Whether the mesh is to stay on the device, or [`Settings::sparse`].
+    /// Whether the device makes the arrays of the mesh, which may stay there.
     pub(crate) resident: bool,
     /// For a mesh whose points have moved, what is known of it.
     pub(crate) moved: Option<Moved<'a, D>>,
@@ -450,7 +450,7 @@ where
             Some((mesh, update)) => begin_update(&mut run, host, &begin, mesh, update).await?,
             None => None,
         };
-        let resident = settings.sparse || used.is_none();
+        let resident = used.is_none() || settings.way_to_host == Some(WayToHost::MadeOnDevice);
         if let Some(used) = used.filter(|_| !resident) {
             run.prepare_room(Dimension::<D>::take_lists(used));
         }

@@ -181,20 +181,21 @@ impl<'a, S: Source, T: Target> Reading<'a, S, T> {
     }
 }
 
+#[cfg(not(target_arch = "wasm32"))]
 impl Readback {
     /// Returns a pool that shares the staging buffers of this one, and counts for itself.
-    #[cfg(not(target_arch = "wasm32"))]
     pub(crate) fn fork(&self) -> Self {
         Readback { idle: Arc::clone(&self.idle), count: 0, bytes: 0 }
     }
 
     /// Adds what a fork has counted.
-    #[cfg(not(target_arch = "wasm32"))]
     pub(crate) fn add(&mut self, fork: &Self) {
         self.count += fork.count;
         self.bytes += fork.bytes;
     }
+}
 
+impl Readback {
     /// Records the copy of `len` elements of `source`, from element `start`, into a staging buffer.
     pub fn copy<T: Pod>(
         &mut self,

@@ -6,7 +6,7 @@ use gdel::{
     internals::{
         Options,
         d3::generate::{Distribution3, generate3d},
-        gpu::phase1::{MemorySettings, Settings},
+        gpu::phase1::{MemorySettings, Settings, WayToHost},
     },
     stats::Fallback,
 };
@@ -48,8 +48,8 @@ fn arrays_in_parts() {
     };
     let uniform = generate3d(Distribution3::Uniform, 20_000, 3);
     for points in [&uniform, &generate3d(Distribution3::Sphere, 3_000, 1), &clouds::shuffled(&clouds::grid(20), 1)] {
-        for sparse in [false, true] {
-            engine.set_settings(Settings { sparse, ..of_slots(60_000) });
+        for way_to_host in [None, Some(WayToHost::MadeOnDevice)] {
+            engine.set_settings(Settings { way_to_host, ..of_slots(60_000) });
             let mesh = block_on(engine.triangulate(points.into(), &options)).expect("triangulates");
             assert_eq!(mesh.stats.fallback, None);
             same(points, &mesh);

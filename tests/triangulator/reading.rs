@@ -7,7 +7,10 @@ use gdel::{
     internals::{
         Options,
         d3::generate::{Distribution3, generate3d},
-        gpu::{engine::GpuEngine, phase1::Settings},
+        gpu::{
+            engine::GpuEngine,
+            phase1::{Settings, WayToHost},
+        },
     },
     stats::Phase,
 };
@@ -23,12 +26,12 @@ use std::{
 
 /// The settings under which stars are gathered for splaying, and the device makes the arrays of the mesh.
 fn gathering() -> Settings<3> {
-    Settings { sparse: true, ..Settings::default() }
+    Settings { way_to_host: Some(WayToHost::MadeOnDevice), ..Settings::default() }
 }
 
 /// The settings under which a mesh is read while it is splayed, however small it is.
 fn beside() -> Settings<3> {
-    Settings { reads_beside: Some(true), ..Settings::default() }
+    Settings { way_to_host: Some(WayToHost::ReadMeanwhile), ..Settings::default() }
 }
 
 fn run<'a>(engine: &mut GpuEngine<3>, points: impl Into<Points3<'a>>, settings: Settings<3>) -> Mesh3 {
@@ -59,7 +62,7 @@ fn every_way_to_the_host_gives_the_same_mesh() {
             assert!(splay.gathers > 0, "input {i}: {splay:?}");
             has_more |= splay.inserted > 0;
             same(points, &mesh);
-            let before = run(&mut engine, points, Settings { sparse: false, ..settings });
+            let before = run(&mut engine, points, Settings { way_to_host: Some(WayToHost::ReadFirst), ..settings });
             assert_eq!(before.stats.splay.map(|splay| splay.gathers), Some(0), "input {i}");
             same(points, &before);
             let meanwhile = run(&mut engine, points, Settings { insert_all, ..beside() });

@@ -19,7 +19,7 @@ use crate::{
         Gpu, Storage,
         engine::{MadeMesh, Near},
         host::Host,
-        phase1::{Aliases as _, Phase1Run, Slot},
+        phase1::{Aliases as _, Phase1Run, Slot, WayToHost},
         progress,
         readback::{Pace, Readback, Target},
         room::fitted,
@@ -47,8 +47,11 @@ const GRAIN: usize = 1 << 11;
 pub(super) fn pays(run: &Phase1Run<'_, 3>) -> bool {
     let (params, counters) = run.control();
     let slots = run.buffers().simplices.len();
-    let pays = || slots >= LEAST_SLOTS && counters.exact / MOST_EXACT < params.infinite;
-    slots <= SLOT as usize && run.settings().reads_beside.unwrap_or_else(pays)
+    slots <= SLOT as usize
+        && match run.settings().way_to_host {
+            Some(way) => way == WayToHost::ReadMeanwhile,
+            None => slots >= LEAST_SLOTS && counters.exact / MOST_EXACT < params.infinite,
+        }
 }
 
 /// Ends the run, and makes the mesh of the arrays, which another thread reads while this one splays.

@@ -52,6 +52,6 @@ pub use finish::{Aliases, Copied, Copies, Finish};
 pub use kernels::Phase1;
 pub(crate) use memory::Memory;
 pub use run::Phase1Run;
-pub use settings::{Budget, MemorySettings, Settings};
+pub use settings::{Budget, MemorySettings, Settings, WayToHost};
 pub(crate) use stages::Stage;
 pub use stats::Phase1Stats;

@@ -45,14 +45,22 @@ pub struct Settings<const D: usize> {
     /// Whether points are ordered along the Hilbert curve, and so are the slots of their simplices
     /// in memory (§4.3, Figure 12).
     pub sort: bool,
-    /// 3D only: whether splaying gathers only the stars that it needs, and the device makes the arrays of the mesh, even
-    /// where the host wants to have it. That saves most of the host's memory, and takes longer than to read the mesh
-    /// before it is splayed.
-    pub sparse: bool,
-    /// 3D only: whether the host reads the mesh while it splays, if it wants to have it; `None` to do so where it pays.
-    pub reads_beside: Option<bool>,
+    /// 3D only: how the mesh comes to a host that wants to have it; `None` for what is fastest.
+    pub way_to_host: Option<WayToHost>,
     /// 2D only: the orientation of the mesh.
     pub winding: Winding,
+}
+
+/// How a 3D mesh comes to the host.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum WayToHost {
+    /// The host reads the mesh, then splays it.
+    ReadFirst,
+    /// The host splays the mesh while another of its threads reads it.
+    ReadMeanwhile,
+    /// The host splays the stars that it gathers, and the device makes the arrays. That saves most of the host's memory, and
+    /// takes longer than to read the mesh before it is splayed.
+    MadeOnDevice,
 }
 
 /// How much device memory a run gets.
@@ -96,8 +104,7 @@ where
             batches: 2,
             budget: Budget { spare_iterations: 256, flips_per_iteration: 256, limits: Limits::measured(D) },
             sort: true,
-            sparse: platform::MESHES_STAY_ON_DEVICE,
-            reads_beside: None,
+            way_to_host: platform::MESHES_STAY_ON_DEVICE.then_some(WayToHost::MadeOnDevice),
             winding: Winding::CounterClockwise,
         }
     }
