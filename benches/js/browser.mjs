@@ -16,7 +16,7 @@ import { join } from 'node:path';
 import { parseArgs } from 'node:util';
 import { launchChromium, WEBGPU_DRAWING } from '../../tests/web/browsers.mjs';
 import { serve } from '../../tests/web/server.mjs';
-import { open, request, settled } from '../../www/tests/driving.mjs';
+import { nextPicture, open, request, settled } from '../../www/tests/driving.mjs';
 import { airborne, xyz } from '../../www/tests/models.mjs';
 import { print, root, times } from './common.mjs';
 
@@ -189,34 +189,6 @@ async function benchPackage(server, number) {
   }
 }
 
-/**
- * How long something takes until the page shows a picture of the next mesh, which it opens slowly afterwards where
- * the system does not ask for less motion.
- */
-async function untilShown(page, work) {
-  await page.evaluate(() => {
-    globalThis.shown = new Promise((resolve) => {
-      let isMeshed = false;
-      const observe = (id, seen) =>
-        new MutationObserver(seen).observe(document.getElementById(id), {
-          attributes: id === 'stage',
-          ...(id === 'stage' ? { attributeFilter: ['data-cut'] } : {}),
-          childList: true,
-          characterData: true,
-          subtree: id !== 'stage',
-        });
-      observe('count', () => (isMeshed = true));
-      observe('stage', () => {
-        if (isMeshed) requestAnimationFrame(() => requestAnimationFrame(resolve));
-      });
-    });
-  });
-  const began = performance.now();
-  await work();
-  await page.evaluate(() => globalThis.shown);
-  return performance.now() - began;
-}
-
 /** How many pictures a second the page draws while `work` goes on, and the longest time between two. */
 async function frames(page, work) {
   await page.evaluate(() => {
@@ -265,16 +237,17 @@ async function benchPage(server, number) {
     watch(page);
     say('page settled, first visit', performance.now() - began);
     const timed = async (what, work) => {
-      let ms;
+      let picture;
       const drawn = await frames(page, async () => {
-        ms = await untilShown(page, work);
+        picture = await nextPicture(page, work);
       });
       await settled(page);
       const shown = await page.evaluate(() => ({
         took: document.getElementById('took')?.textContent,
         backend: document.getElementById('backend-used')?.textContent.trim(),
       }));
-      say(what, ms, { ...drawn, ...shown });
+      const { began, meshed, shown: there } = picture;
+      say(what, there - began, { meshed_ms: meshed - began, ...drawn, ...shown });
     };
     for (const which of ['first', 'second'])
       await timed(`${which} drop of a scan of 110,000 points`, () => dropScan(page));

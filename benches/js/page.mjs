@@ -14,6 +14,7 @@ import {
   drop,
   generate,
   launch,
+  nextPicture,
   open,
   serve as servePage,
   settled,
@@ -40,19 +41,10 @@ const times = async (count, measure) => {
 
 /** How long a dropped scan is not to be seen yet once its mesh is there. */
 async function pictureTimes(page) {
-  await page.evaluate(() => {
-    const on = (id, mark) =>
-      new MutationObserver(mark).observe(document.getElementById(id), {
-        attributes: id === 'stage',
-        childList: true,
-      });
-    on('count', () => (globalThis.meshed = performance.now()));
-    on('stage', () => (globalThis.shown = performance.now()));
-  });
   const scan = xyz(airborne(110_000));
   return times(5, async () => {
-    await drop(page, 'hills.xyz', scan);
-    return page.evaluate(() => shown - meshed);
+    const { meshed, shown } = await nextPicture(page, () => drop(page, 'hills.xyz', scan));
+    return shown - meshed;
   });
 }
 

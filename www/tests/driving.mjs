@@ -126,3 +126,31 @@ export async function dropAll(page, contents) {
   await page.dispatchEvent('#stage', 'drop', { dataTransfer: transfer });
   await settled(page);
 }
+
+/**
+ * Waits for `work` and until the page shows a picture of the next mesh. Returns the times on the page's clock at which
+ * `work` began, the page told the size of the mesh, and the picture was there. The page may go on to open the mesh slowly.
+ */
+export async function nextPicture(page, work) {
+  await page.evaluate(() => {
+    globalThis.picture = new Promise((resolve) => {
+      const times = { began: performance.now() };
+      const observe = (id, options, seen) => {
+        const observer = new MutationObserver(() => seen(observer));
+        observer.observe(document.getElementById(id), options);
+      };
+      observe('count', { childList: true, characterData: true, subtree: true }, () => {
+        times.meshed ??= performance.now();
+      });
+      observe('stage', { attributeFilter: ['data-cut'] }, (observer) => {
+        if (times.meshed === undefined) return;
+        observer.disconnect();
+        requestAnimationFrame(() =>
+          requestAnimationFrame(() => resolve({ ...times, shown: performance.now() })),
+        );
+      });
+    });
+  });
+  await work();
+  return page.evaluate(() => globalThis.picture);
+}
