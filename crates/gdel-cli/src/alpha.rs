@@ -2,12 +2,12 @@
 
 use super::{
     derive::{Common, Found, Number, SolidFormat, parse_solid, write_cells, write_triangles},
-    dimension::{Dimension, Triangulation},
+    dimension::{Triangulation, in_dimension},
     failure::Failure,
 };
 use clap::{Args, builder::TypedValueParser, error::ErrorKind};
 use gdel::{
-    AlphaShape, Error, Mesh2, Mesh3, Points,
+    AlphaShape, Error, Points,
     internals::{derived::AlphaEdges, geometry::Euclidean},
 };
 use gdel_io::{CellShape, files::ResultOutput};
@@ -51,10 +51,7 @@ fn parse_output(path: &str) -> Result<ResultOutput<SolidFormat>, String> {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    match arguments.common.dim {
-        Dimension::Three => run_in::<Mesh3, 3, 4>(arguments),
-        Dimension::Two => run_in::<Mesh2, 2, 3>(arguments),
-    }
+    in_dimension!(arguments.common.dim, run_in, arguments)
 }
 
 /// The parts of the alpha shape that files hold.

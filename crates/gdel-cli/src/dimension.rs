@@ -19,6 +19,17 @@ pub(super) enum Dimension {
     Three,
 }
 
+/// Calls a function that is generic over meshes for those of a dimension.
+macro_rules! in_dimension {
+    ($dimension:expr, $function:ident, $argument:expr) => {
+        match $dimension {
+            $crate::dimension::Dimension::Three => $function::<gdel::Mesh3, 3, 4>($argument),
+            $crate::dimension::Dimension::Two => $function::<gdel::Mesh2, 2, 3>($argument),
+        }
+    };
+}
+pub(super) use in_dimension;
+
 /// A mesh that the commands make and verify.
 pub(super) trait Triangulation<const D: usize, const N: usize>:
     gdel_io::Mesh<D, N> + mesh::MeshInfo + Sized

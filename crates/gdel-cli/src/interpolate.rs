@@ -2,13 +2,13 @@
 
 use super::{
     derive::{Common, Found, Number, Queries},
-    dimension::{Dimension, Triangulation},
+    dimension::{Triangulation, in_dimension},
     failure::Failure,
     locate::{parse_table, write_table},
 };
 use clap::{Args, ValueEnum};
 use gdel::{
-    Interpolation, Interpolator, Locator, Mesh2, Mesh3, Points,
+    Interpolation, Interpolator, Locator, Points,
     internals::{derived::StolenMeasures, geometry::Euclidean},
 };
 use gdel_io::{Column, Table, TableFormat, files::ResultOutput};
@@ -54,10 +54,7 @@ impl From<Method> for Interpolation {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    match arguments.common.dim {
-        Dimension::Three => run_in::<Mesh3, 3, 4>(arguments),
-        Dimension::Two => run_in::<Mesh2, 2, 3>(arguments),
-    }
+    in_dimension!(arguments.common.dim, run_in, arguments)
 }
 
 fn run_in<M: Triangulation<D, N>, const D: usize, const N: usize>(arguments: &Arguments) -> Result<(), Failure>

@@ -2,12 +2,12 @@
 
 use super::{
     derive::{Common, Found, Number, Queries, write},
-    dimension::{Dimension, Triangulation},
+    dimension::{Triangulation, in_dimension},
     failure::Failure,
 };
 use clap::Args;
 use gdel::{
-    Location, Locator, Mesh2, Mesh3, Points,
+    Location, Locator, Points,
     internals::geometry::{Euclidean, Geometry},
 };
 use gdel_io::{Column, Table, TableFormat, files::ResultOutput};
@@ -44,10 +44,7 @@ pub(super) fn write_table(output: &ResultOutput<TableFormat>, table: &Table) -> 
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    match arguments.common.dim {
-        Dimension::Three => run_in::<Mesh3, 3, 4>(arguments),
-        Dimension::Two => run_in::<Mesh2, 2, 3>(arguments),
-    }
+    in_dimension!(arguments.common.dim, run_in, arguments)
 }
 
 fn run_in<M: Triangulation<D, N>, const D: usize, const N: usize>(arguments: &Arguments) -> Result<(), Failure>

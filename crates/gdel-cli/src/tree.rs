@@ -2,12 +2,12 @@
 
 use super::{
     derive::{Common, Found, GridFormat, Number, parse_grid, write},
-    dimension::{Dimension, Triangulation},
+    dimension::{Triangulation, in_dimension},
     failure::Failure,
 };
 use clap::Args;
 use gdel::{
-    Mesh2, Mesh3, Points, SpanningTree,
+    Points, SpanningTree,
     internals::geometry::{Euclidean, Geometry},
 };
 use gdel_io::{CellShape, Column, Grid, Table, files::ResultOutput};
@@ -28,10 +28,7 @@ fn parse_output(path: &str) -> Result<ResultOutput<GridFormat>, String> {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    match arguments.common.dim {
-        Dimension::Three => run_in::<Mesh3, 3, 4>(arguments),
-        Dimension::Two => run_in::<Mesh2, 2, 3>(arguments),
-    }
+    in_dimension!(arguments.common.dim, run_in, arguments)
 }
 
 fn run_in<M: Triangulation<D, N>, const D: usize, const N: usize>(arguments: &Arguments) -> Result<(), Failure>

@@ -1,14 +1,14 @@
 //! `gdel triangulate`: a point cloud in, its Delaunay triangulation out.
 
 use super::{
-    dimension::{Dimension, Triangulation, format_parser, read},
+    dimension::{Dimension, Triangulation, format_parser, in_dimension, read},
     failure::Failure,
     progress::Progress,
     report::Report,
     verify,
 };
 use clap::{Args, ValueEnum};
-use gdel::{Backend, Mesh2, Mesh3, Points, Triangulator};
+use gdel::{Backend, Points, Triangulator};
 use gdel_io::{
     PointFormat,
     files::{Input, Output},
@@ -90,10 +90,7 @@ fn parse_output(path: &str) -> Result<Output, String> {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    match arguments.dim {
-        Dimension::Three => run_in::<Mesh3, 3, 4>(arguments),
-        Dimension::Two => run_in::<Mesh2, 2, 3>(arguments),
-    }
+    in_dimension!(arguments.dim, run_in, arguments)
 }
 
 fn run_in<M: Triangulation<D, N>, const D: usize, const N: usize>(arguments: &Arguments) -> Result<(), Failure> {

@@ -1,12 +1,12 @@
 //! `gdel verify`: the proof that a mesh is the Delaunay triangulation of its points.
 
 use super::{
-    dimension::{Dimension, Triangulation, format_parser, read},
+    dimension::{Dimension, Triangulation, format_parser, in_dimension, read},
     failure::Failure,
     progress::Progress,
 };
 use clap::Args;
-use gdel::{Mesh2, Mesh3, Points, verify::Report};
+use gdel::{Points, verify::Report};
 use gdel_io::{
     PointBuf, PointFormat,
     files::{Input, read_mesh},
@@ -34,10 +34,7 @@ pub(super) struct Arguments {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    match arguments.dim {
-        Dimension::Three => run_in::<Mesh3, 3, 4>(arguments),
-        Dimension::Two => run_in::<Mesh2, 2, 3>(arguments),
-    }
+    in_dimension!(arguments.dim, run_in, arguments)
 }
 
 fn run_in<M: Triangulation<D, N>, const D: usize, const N: usize>(arguments: &Arguments) -> Result<(), Failure> {
