@@ -56,7 +56,7 @@ bundle_site() {
   npm run build --silent --workspace www >&2
   rm -rf "$out/packed" && mkdir "$out/packed"
   node -e "import('./tests/web/package.mjs').then(({ packInto }) => packInto('$PWD/$out/packed'))"
-  tar -c "$out/packed" benches/js benches/browser tests/web tests/data package.json web/dist web/package.json www/dist www/tests \
+  tar -c --exclude www/tests/screenshots "$out/packed" benches/js benches/browser tests/web tests/data package.json web/dist web/package.json www/dist www/tests \
     node_modules/playwright-core | xz -3 -T0 >"$out/site.tar.xz"
 }
 
