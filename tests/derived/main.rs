@@ -10,6 +10,7 @@ mod interpolate;
 mod locate;
 mod nearest;
 mod surface;
+mod surfaces_pinned;
 mod tree;
 mod unused;
 mod voronoi;

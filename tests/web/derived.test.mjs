@@ -418,7 +418,7 @@ test('bad input is a typed error that says what is wrong', async () => {
   await rejects(cube.voronoi({ clip: [0, 0, 0, Infinity, 1, 1] }), 'BAD_INPUT', /along the x axis/);
   await rejects(cube.alphaShape({ alpha: -1 }), 'BAD_INPUT', /not negative/);
   await rejects(cube.alphaShape({ alpha: Number.NaN }), 'BAD_INPUT', /not negative/);
-  await rejects(cube.alphaShape({ components: 0 }), 'BAD_INPUT', /an integer from 1 on/);
+  await rejects(cube.alphaShape({ components: 0 }), 'BAD_INPUT', /an integer from 1 to/);
   const bare = await delaunay3d(CUBE, { outputs: [] });
   await rejects(bare.locate([[0, 0, 0]]), 'BAD_INPUT', /this needs 'neighbors'/);
   assert.throws(() => square.find(0, 0, 5), { code: 'BAD_INPUT' });
@@ -437,6 +437,7 @@ test('bad input is a typed error that says what is wrong', async () => {
       () => tampered.interpolate(new Float64Array(9), [[0, 0, 0]]),
       () => tampered.voronoi(),
       () => tampered.alphaShape(),
+      () => tampered.surface(),
       () => tampered.spanningTree(),
       () => tampered.topology(),
       () => tampered.geometry(),
@@ -456,6 +457,7 @@ test('progress, aborts, and what the callback throws', async () => {
     interpolate: (options) => mesh.interpolate(new Float64Array(20_000), points, options),
     voronoi: (options) => mesh.voronoi(options),
     alpha: (options) => mesh.alphaShape(options),
+    surface: (options) => mesh.surface(options),
     tree: (options) => mesh.spanningTree(options),
   };
   for (const [phase, start] of Object.entries(starts)) {

@@ -11,15 +11,19 @@ export function canonical(tetrahedra) {
 }
 
 /** FNV-1a, 64 bits, of the canonical form as little-endian words. */
-export function fingerprint(tetrahedra) {
-  const bytes = new Uint8Array(canonical(tetrahedra).buffer);
+export const fingerprint = (tetrahedra) => hashOf([canonical(tetrahedra)]);
+
+/** FNV-1a, 64 bits, of typed arrays one after the other. */
+export function hashOf(arrays) {
   // In two halves, since numbers hold 53 bits: the prime is 2⁴⁰ + 435.
   let [high, low] = [0xcbf29ce4, 0x84222325];
-  for (const byte of bytes) {
-    low = (low ^ byte) >>> 0;
-    const product = low * 435;
-    high = (Math.imul(high, 435) + Math.floor(product / 2 ** 32) + (low << 8)) >>> 0;
-    low = product >>> 0;
+  for (const { buffer, byteOffset, byteLength } of arrays) {
+    for (const byte of new Uint8Array(buffer, byteOffset, byteLength)) {
+      low = (low ^ byte) >>> 0;
+      const product = low * 435;
+      high = (Math.imul(high, 435) + Math.floor(product / 2 ** 32) + (low << 8)) >>> 0;
+      low = product >>> 0;
+    }
   }
   return [high, low].map((half) => half.toString(16).padStart(8, '0')).join('');
 }

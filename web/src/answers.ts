@@ -1,6 +1,6 @@
 // What is derived from meshes: options and results.
 
-import type { Doubles, Indices } from './arrays.js';
+import type { Coordinates, Doubles, Indices, SignedIndices } from './arrays.js';
 import type { TaskOptions } from './types.js';
 
 /** How values are interpolated between the vertices. */
@@ -71,6 +71,82 @@ export interface AlphaShape {
   readonly radii: Doubles;
   /** The radii at which anything changes, ascending; empty unless requested. */
   readonly criticalValues: Doubles;
+}
+
+/** Options of `surface`. */
+export interface SurfaceOptions extends TaskOptions {
+  /**
+   * Pieces of the solid and cavities in it are dropped if their volume is less than this share of the
+   * largest piece's, from 0 to 1. Default 0.01.
+   */
+  minPart?: number | undefined;
+  /**
+   * Whether to drop points that are far from all others before the surface is found: the sixth nearest
+   * one is more than four times as far away as is usual, and as it is around them. Default true.
+   */
+  dropIsolated?: boolean | undefined;
+  /**
+   * How often to move the points onto quadrics through their neighbours before the surface is found, up
+   * to 100 times. Default `'auto'`: twice if there is noise, which is estimated, else never.
+   */
+  smooth?: number | 'auto' | undefined;
+  /** Whether to return `solid`, default false. */
+  solid?: boolean | undefined;
+}
+
+/** What surfaces of both dimensions have in common. */
+export interface SurfaceArrays {
+  /**
+   * The coordinates of the vertices, in the precision of the points: 3 per vertex, 2 in 2D. They are
+   * coordinates of points, except where points were moved or two sheets touch along an edge.
+   */
+  readonly vertices: Coordinates;
+  /**
+   * For each vertex the point that it is, ascending. A point where sheets of the surface touch comes
+   * several times. −1 for a vertex in the middle of an edge along which two sheets touch.
+   */
+  readonly sources: SignedIndices;
+  /** Where each point lies: 0 outside or dropped, 1 on the surface, 2 inside the solid. */
+  readonly sides: Uint8Array<ArrayBuffer>;
+  /** The volume of the solid in units of the input; its area in 2D. */
+  readonly volume: number;
+  /** The area of the surface; the length of the curves in 2D. */
+  readonly area: number;
+  /** The number of connected surfaces, or curves in 2D. A ball with a cavity has two. */
+  readonly components: number;
+  /**
+   * The number of handles of all surfaces together: 0 for a sphere, 1 for a torus. 0 in 2D.
+   */
+  readonly genus: number;
+  /**
+   * Whether every edge belongs to exactly two triangles, in opposite directions; in 2D, every vertex to
+   * two edges. It was counted; by construction it is true.
+   */
+  readonly closed: boolean;
+  /**
+   * The median distance of the points from quadrics through their neighbours, in units of the distance
+   * between points; 0 where it was not estimated.
+   */
+  readonly noise: number;
+  /** How many points were dropped because they are far from all others. */
+  readonly isolated: number;
+  /** How many pieces of the solid were dropped because they are small. */
+  readonly droppedPieces: number;
+  /** How many cavities were filled because they are small. */
+  readonly filledCavities: number;
+  /** The coordinates of all points as they were moved; null if they were not. */
+  readonly moved: Doubles | null;
+  /**
+   * If requested, the simplices inside by their vertices, which are points: 4 per tetrahedron, 3 per
+   * triangle. They are those of the mesh, unless points were dropped or moved. Else null.
+   */
+  readonly solid: Indices | null;
+}
+
+/** Closed curves through the points of a 2D mesh. */
+export interface Surface2 extends SurfaceArrays {
+  /** 2 vertices per edge; the inside is on its left if the y axis points down. */
+  readonly edges: Indices;
 }
 
 /** What is connected with what in a mesh. */

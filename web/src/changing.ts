@@ -19,6 +19,7 @@ import {
   spanningTree,
   topology,
 } from './derived.js';
+import { Triangles } from './files.js';
 import { bad } from './options.js';
 import type { Done, Edit, Task } from './protocol.js';
 import type { Update } from './run.js';
@@ -26,7 +27,7 @@ import type { AccessorOptions, Points, Stats, TaskOptions, UpdateOptions } from 
 import { Updating } from './updating.js';
 
 /** A mesh in typed arrays, of either dimension. */
-export abstract class Mesh {
+export abstract class Mesh extends Triangles {
   /** Statistics of the run. */
   declare readonly stats: Stats;
   declare readonly hull: Indices;
@@ -36,6 +37,7 @@ export abstract class Mesh {
 
   /** @internal */
   constructor(done: Done<Task>, update: Update<Task>) {
+    super();
     this.#update = update;
     this._take(done);
   }

@@ -12,6 +12,7 @@ type DerivedTask =
   | 'interpolate'
   | 'voronoi'
   | 'alphaShape'
+  | 'surface'
   | 'spanningTree'
   | 'topology'
   | 'geometry';
@@ -31,6 +32,8 @@ export function openCore(module: WebAssembly.Module): Core {
       glue.voronoi(dimension, points, mesh, clip, bounds, report),
     alphaShape: ({ dimension, points, mesh, alpha, components, criticalValues }, report) =>
       glue.alphaShape(dimension, points, mesh, alpha, components, criticalValues, report),
+    surface: ({ dimension, points, mesh, options }, report) =>
+      glue.surface(dimension, points, mesh, options, report),
     spanningTree: ({ dimension, points, mesh }, report) =>
       glue.spanningTree(dimension, points, mesh, report),
     topology: ({ dimension, points, mesh }, report) =>

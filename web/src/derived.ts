@@ -6,15 +6,26 @@ import type {
   AlphaShape,
   InterpolateOptions,
   NearestOptions,
+  SurfaceArrays,
+  SurfaceOptions,
   VoronoiArrays,
   VoronoiOptions,
 } from './answers.js';
-import { type Coordinates, type Doubles, type Indices, kindOf } from './arrays.js';
-import { bad, checkArrays, checkBoolean, checkOneOf, optionsOf, taskOptions } from './options.js';
-import { coordinatesInSlices } from './points.js';
+import { type Bytes, type Coordinates, type Doubles, type Indices, kindOf } from './arrays.js';
+import { type TriangleFormat, Triangles } from './files.js';
+import {
+  bad,
+  checkArrays,
+  checkBoolean,
+  checkInteger,
+  checkOneOf,
+  optionsOf,
+  taskOptions,
+} from './options.js';
+import { copyOf } from './points.js';
 import type { DerivedMesh, TaskName, Tasks } from './protocol.js';
 import { runShared } from './shared.js';
-import { throwIfAborted } from './stop.js';
+import { write } from './tools.js';
 import type { Points, TaskOptions } from './types.js';
 
 /** What derives from a mesh: the same in both dimensions. */
@@ -35,15 +46,9 @@ async function run<T extends TaskName>(
   return runShared(moduleDerived, task, all, options);
 }
 
-/** Returns query points as one array that nobody else uses. */
-function queriesOf(queries: Points, { dimension }: Source, { signal }: TaskOptions) {
-  const conversion = { dimension, transfer: false, point: undefined };
-  return coordinatesInSlices(queries, conversion, () => throwIfAborted(signal));
-}
-
 export async function locate(source: Source, queries: Points, options: TaskOptions | undefined) {
   const task = taskOptions(optionsOf(options));
-  return run('locate', source, { queries: await queriesOf(queries, source, task) }, task);
+  return run('locate', source, { queries: await copyOf(queries, source.dimension, task) }, task);
 }
 
 export async function nearest(
@@ -54,14 +59,16 @@ export async function nearest(
   const { k = 1 } = optionsOf(options);
   checkCount('the option k', k);
   const task = taskOptions(optionsOf(options));
-  return run('nearest', source, { queries: await queriesOf(queries, source, task), k }, task);
+  return run(
+    'nearest',
+    source,
+    { queries: await copyOf(queries, source.dimension, task), k },
+    task,
+  );
 }
 
 /** Checks a number of things, of which there is one at least. */
-function checkCount(what: string, count: unknown): void {
-  if (!Number.isInteger(count) || (count as number) < 1 || (count as number) > 2 ** 31)
-    throw bad(what, 'an integer from 1 on', count);
-}
+const checkCount = (what: string, count: unknown) => checkInteger(what, count, 1, 2 ** 31);
 
 export async function interpolate(
   source: Source,
@@ -74,7 +81,7 @@ export async function interpolate(
   const task = taskOptions(optionsOf(options));
   const count = source.points.length / source.dimension;
   const numbers = numbersOf('the values', values, count, 'one per point');
-  const args = { queries: await queriesOf(queries, source, task), values: numbers, method };
+  const args = { queries: await copyOf(queries, source.dimension, task), values: numbers, method };
   return run('interpolate', source, args, task);
 }
 
@@ -123,6 +130,40 @@ export async function alphaShape(
   checkBoolean('criticalValues', criticalValues);
   const args = { alpha: alpha === 'auto' ? undefined : alpha, components, criticalValues };
   return run('alphaShape', source, args, taskOptions(optionsOf(options)));
+}
+
+/**
+ * A closed, oriented surface through the points of a 3D mesh, and the solid that it encloses. Every
+ * edge belongs to two triangles, and no two triangles intersect.
+ */
+export interface Surface3 extends SurfaceArrays {}
+// biome-ignore lint/suspicious/noUnsafeDeclarationMerging: the constructor assigns what the interface has.
+export class Surface3 extends Triangles {
+  /** 3 vertices per triangle, counter-clockwise as seen from outside. */
+  declare readonly triangles: Indices;
+
+  /** @internal */
+  constructor({ edges, ...arrays }: Tasks['surface']['result']) {
+    super();
+    Object.assign(this, arrays);
+  }
+
+  /** @internal */
+  async _write(format: TriangleFormat, options: TaskOptions | undefined): Promise<Bytes> {
+    const mesh = { tetrahedra: new Uint32Array(0), hull: this.triangles };
+    return (await write('write', { points: this.vertices, mesh, format }, options))[format]!;
+  }
+}
+
+export async function surface(source: Source, options: SurfaceOptions | undefined) {
+  const { signal, onProgress, ...given } = optionsOf(options);
+  const { minPart = 0, dropIsolated, smooth = 'auto', solid } = given;
+  if (!(typeof minPart === 'number' && minPart >= 0 && minPart <= 1))
+    throw bad('the option minPart', 'a number from 0 to 1', minPart);
+  checkBoolean('dropIsolated', dropIsolated);
+  checkBoolean('solid', solid);
+  if (smooth !== 'auto') checkInteger('the option smooth', smooth, 0, 100);
+  return run('surface', source, { options: given }, taskOptions({ signal, onProgress }));
 }
 
 /** The Euclidean minimum spanning tree of the vertices of a mesh. */

@@ -14,6 +14,9 @@ export type {
   InterpolateOptions,
   InterpolationMethod,
   NearestOptions,
+  Surface2,
+  SurfaceArrays,
+  SurfaceOptions,
   Topology,
   VoronoiArrays,
   VoronoiOptions,
@@ -21,8 +24,9 @@ export type {
 export type { Bytes, Coordinates, Doubles, Indices, SignedIndices } from './arrays.js';
 export type { Mesh } from './changing.js';
 export { Delaunator } from './delaunator.js';
-export { SpanningTree } from './derived.js';
+export { SpanningTree, Surface3 } from './derived.js';
 export { GdelError, type GdelErrorCode } from './errors.js';
+export type { Triangles } from './files.js';
 export { type Locations3, Mesh3 } from './mesh.js';
 export { type Locations2, Mesh2 } from './mesh2.js';
 export {

@@ -1,8 +1,9 @@
-import type { VoronoiArrays, VoronoiOptions } from './answers.js';
+import type { SurfaceOptions, VoronoiArrays, VoronoiOptions } from './answers.js';
 import type { Bytes, Coordinates, Indices, SignedIndices } from './arrays.js';
 import { Mesh } from './changing.js';
-import { locate, type Source, voronoi } from './derived.js';
+import { locate, type Source, Surface3, surface, voronoi } from './derived.js';
 import { GdelError } from './errors.js';
+import type { TriangleFormat } from './files.js';
 import type { Done } from './protocol.js';
 import type { Update } from './run.js';
 import { write } from './tools.js';
@@ -84,78 +85,80 @@ export class Mesh3 extends Mesh {
   }
 
   /**
+   * Finds the closed surface that the points were taken from, such as those of a scan, and the solid
+   * that it encloses. Neither normals nor a radius are needed, but points that are dense compared with
+   * the details. The result depends on the points and the options alone. Flat points, and fewer than
+   * four, have an empty surface.
+   *
+   * @example
+   *
+   * ```js
+   * const surface = await mesh.surface();
+   * console.log(`${surface.volume} cubic units, genus ${surface.genus}`);
+   * const file = await surface.to3MF(); // for a printer
+   * ```
+   *
+   * @throws {@link GdelError} `BAD_INPUT` for an option, or if `outputs` lacked `'neighbors'` or
+   * `'duplicateOf'`; `OUT_OF_MEMORY`, `ABORTED`.
+   */
+  async surface(options?: SurfaceOptions): Promise<Surface3> {
+    return new Surface3(await surface(this._source(), options));
+  }
+
+  /**
    * Returns the tetrahedra as VTK's XML unstructured grid (`.vtu`), which ParaView and PyVista
    * read.
    */
   async toVTU(options?: TaskOptions): Promise<Bytes> {
-    return (await this.#write('vtu', [], options)).vtu!;
-  }
-
-  /** Returns the hull as Stanford PLY (`.ply`), binary. */
-  async toPLY(options?: TaskOptions): Promise<Bytes> {
-    return (await this.#write('ply', ['hull'], options)).ply!;
-  }
-
-  /** Returns the hull as Wavefront OBJ (`.obj`). */
-  async toOBJ(options?: TaskOptions): Promise<Bytes> {
-    return (await this.#write('obj', ['hull'], options)).obj!;
-  }
-
-  /** Returns the hull as binary STL (`.stl`), which has single precision. */
-  async toSTL(options?: TaskOptions): Promise<Bytes> {
-    return (await this.#write('stl', ['hull'], options)).stl!;
-  }
-
-  /**
-   * Returns the hull as binary glTF 2.0 (`.glb`), which has single precision. If that would lose
-   * something, coordinates are relative to the node's translation. Axes stay as they are, though
-   * glTF has *y* up.
-   */
-  async toGLB(options?: TaskOptions): Promise<Bytes> {
-    return (await this.#write('glb', ['hull'], options)).glb!;
+    return (await this.#files('vtu', [], options)).vtu!;
   }
 
   /** Returns TetGen's three files: points, tetrahedra and neighbors, counted from 0. */
   async toTetGen(options?: TaskOptions): Promise<{ node: Bytes; ele: Bytes; neigh: Bytes }> {
-    const { node, ele, neigh } = await this.#write('tetgen', ['neighbors'], options);
+    const { node, ele, neigh } = await this.#files('tetgen', ['neighbors'], options);
     return { node: node!, ele: ele!, neigh: neigh! };
   }
 
   /** Returns NumPy's `.npz` with the arrays `points`, `tetrahedra` and `neighbors`. */
   async toNPZ(options?: TaskOptions): Promise<Bytes> {
-    return (await this.#write('npz', ['neighbors'], options)).npz!;
+    return (await this.#files('npz', ['neighbors'], options)).npz!;
   }
 
   /** @internal */
   _source(): Source {
-    const missing = (['neighbors', 'duplicateOf'] as const).find((o) => !this.#outputs.includes(o));
-    if (missing)
-      throw new GdelError(
-        'BAD_INPUT',
-        `this needs '${missing}', which was not among the outputs of the run`,
-      );
+    this.#check(['neighbors', 'duplicateOf'], 'this needs');
     const { tetrahedra, neighbors, duplicateOf, points } = this;
     return { dimension: 3, points, mesh: { tetrahedra, neighbors, duplicateOf } };
   }
 
+  /** @internal */
+  async _write(format: TriangleFormat, options: TaskOptions | undefined): Promise<Bytes> {
+    return (await this.#files(format, ['hull'], options))[format]!;
+  }
+
   /** Copies only what the format needs to the writer. */
-  #write(
+  #files(
     format: string,
     needs: readonly Output[],
     options: TaskOptions | undefined,
   ): Promise<Record<string, Bytes>> {
-    const missing = needs.find((output) => !this.#outputs.includes(output));
-    if (missing)
-      throw new GdelError(
-        'BAD_INPUT',
-        `${format} files need '${missing}', which was not among the outputs of the run`,
-      );
+    this.#check(needs, `${format} files need`);
     const isHull = needs.includes('hull');
     const mesh = {
       tetrahedra: isHull ? new Uint32Array(0) : this.tetrahedra,
       hull: isHull ? this.hull : undefined,
       neighbors: needs.includes('neighbors') ? this.neighbors : undefined,
     };
-    return write(this.points, mesh, format, options);
+    return write('write', { points: this.points, mesh, format }, options);
+  }
+
+  /** Checks that the mesh has some arrays. */
+  #check(needs: readonly Output[], who: string): void {
+    const missing = needs.find((output) => !this.#outputs.includes(output));
+    if (missing)
+      throw new GdelError(
+        'BAD_INPUT',
+        `${who} '${missing}', which was not among the outputs of the run`,
+      );
   }
 }

@@ -1,11 +1,12 @@
-import type { VoronoiOptions } from './answers.js';
+import type { Surface2, SurfaceOptions, VoronoiOptions } from './answers.js';
 import type { Bytes, Coordinates, Indices, SignedIndices } from './arrays.js';
 import { Mesh } from './changing.js';
-import { locate, type Source, voronoi } from './derived.js';
+import { locate, type Source, surface, voronoi } from './derived.js';
+import type { TriangleFormat } from './files.js';
 import { bad, optionsOf } from './options.js';
 import { findNearest, Rings, stripes } from './plane.js';
 import type { Done } from './protocol.js';
-import { write2d } from './tools.js';
+import { write } from './tools.js';
 import type { Points, TaskOptions } from './types.js';
 import { Voronoi2 } from './voronoi2.js';
 
@@ -117,37 +118,19 @@ export class Mesh2 extends Mesh {
   }
 
   /**
+   * Finds the closed curves that the points were taken from: polygons from unordered points. Else as
+   * {@link Mesh3.surface}.
+   */
+  async surface(options?: SurfaceOptions): Promise<Surface2> {
+    const { triangles, ...curves } = await surface(this._source(), options);
+    return curves;
+  }
+
+  /**
    * Returns the triangles as VTK's XML unstructured grid (`.vtu`), which ParaView and PyVista read.
    */
   async toVTU(options?: TaskOptions): Promise<Bytes> {
-    return (await this.#write('vtu', options)).vtu!;
-  }
-
-  /** Returns the triangles as Stanford PLY (`.ply`), binary. */
-  async toPLY(options?: TaskOptions): Promise<Bytes> {
-    return (await this.#write('ply', options)).ply!;
-  }
-
-  /** Returns the triangles as Wavefront OBJ (`.obj`). */
-  async toOBJ(options?: TaskOptions): Promise<Bytes> {
-    return (await this.#write('obj', options)).obj!;
-  }
-
-  /**
-   * Returns the triangles as STL (`.stl`): binary if the coordinates fit single precision,
-   * otherwise text.
-   */
-  async toSTL(options?: TaskOptions): Promise<Bytes> {
-    return (await this.#write('stl', options)).stl!;
-  }
-
-  /**
-   * Returns the triangles as binary glTF 2.0 (`.glb`), which has single precision. If that would
-   * lose something, coordinates are relative to the node's translation. Axes stay as they are,
-   * though glTF has *y* up.
-   */
-  async toGLB(options?: TaskOptions): Promise<Bytes> {
-    return (await this.#write('glb', options)).glb!;
+    return (await this.#files('vtu', options)).vtu!;
   }
 
   /**
@@ -155,13 +138,13 @@ export class Mesh2 extends Mesh {
    * 0.
    */
   async toTriangle(options?: TaskOptions): Promise<{ node: Bytes; ele: Bytes; neigh: Bytes }> {
-    const { node, ele, neigh } = await this.#write('triangle', options);
+    const { node, ele, neigh } = await this.#files('triangle', options);
     return { node: node!, ele: ele!, neigh: neigh! };
   }
 
   /** Returns NumPy's `.npz` with the arrays `points`, `triangles` and `halfedges`. */
   async toNPZ(options?: TaskOptions): Promise<Bytes> {
-    return (await this.#write('npz', options)).npz!;
+    return (await this.#files('npz', options)).npz!;
   }
 
   /** @internal */
@@ -175,8 +158,13 @@ export class Mesh2 extends Mesh {
     return this.#rings[1];
   }
 
-  #write(format: string, options: TaskOptions | undefined): Promise<Record<string, Bytes>> {
-    const { triangles, halfedges } = this;
-    return write2d(this.coords, { triangles, halfedges }, format, options);
+  /** @internal */
+  async _write(format: TriangleFormat, options: TaskOptions | undefined): Promise<Bytes> {
+    return (await this.#files(format, options))[format]!;
+  }
+
+  #files(format: string, options: TaskOptions | undefined): Promise<Record<string, Bytes>> {
+    const { coords: points, triangles, halfedges } = this;
+    return write('write2d', { points, mesh: { triangles, halfedges }, format }, options);
   }
 }

@@ -61,6 +61,12 @@ export function checkBoolean(option: string, value: unknown): void {
     throw bad(`the option ${option}`, 'true or false', value);
 }
 
+/** Checks an integer. */
+export function checkInteger(what: string, value: unknown, low: number, high: number): void {
+  if (!Number.isInteger(value) || (value as number) < low || (value as number) > high)
+    throw bad(what, `an integer from ${low} to ${high}`, value);
+}
+
 /** Checks that the arrays of a mesh are still there. */
 export function checkArrays(arrays: object): void {
   for (const [name, array] of Object.entries(arrays)) {

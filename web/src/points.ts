@@ -4,6 +4,8 @@ import { type Coordinates, inThisRealm, isArrayBuffer, isDetached, kindOf } from
 import { GdelError } from './errors.js';
 import { bad, nameOf } from './options.js';
 import { Slice } from './slices.js';
+import { throwIfAborted } from './stop.js';
+import type { Points, TaskOptions } from './types.js';
 
 /** The largest number of points that can be triangulated. */
 const MAX_POINTS = 2 ** 27;
@@ -48,6 +50,16 @@ export async function coordinatesInSlices(
     await slice.next();
     throwIfAborted();
   }
+}
+
+/** Returns a copy of points, which nobody else uses. */
+export function copyOf(
+  points: Points,
+  dimension: number,
+  { signal }: TaskOptions,
+): Promise<Coordinates> {
+  const conversion = { dimension, transfer: false, point: undefined };
+  return coordinatesInSlices(points, conversion, () => throwIfAborted(signal));
 }
 
 /** Converts in steps, between which other events can be handled. */

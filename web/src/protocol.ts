@@ -1,6 +1,13 @@
 // The messages between the page and the worker.
 
-import type { AlphaShape, Geometry, Topology, VoronoiArrays } from './answers.js';
+import type {
+  AlphaShape,
+  Geometry,
+  SurfaceArrays,
+  SurfaceOptions,
+  Topology,
+  VoronoiArrays,
+} from './answers.js';
 import type { Bytes, Coordinates, Doubles, Indices, SignedIndices } from './arrays.js';
 import type { Buffer } from './device.js';
 import type { PlainError } from './errors.js';
@@ -174,6 +181,10 @@ export interface Tasks {
   alphaShape: {
     args: DerivedArgs & { alpha: number | undefined; components: number; criticalValues: boolean };
     result: AlphaShape;
+  };
+  surface: {
+    args: DerivedArgs & { options: SurfaceOptions };
+    result: SurfaceArrays & { triangles: Indices; edges: Indices };
   };
   spanningTree: { args: DerivedArgs; result: { edges: Indices; lengths: Doubles } };
   topology: { args: DerivedArgs; result: Topology };

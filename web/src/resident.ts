@@ -43,6 +43,7 @@ type Answer =
   | 'geometry'
   | 'voronoi'
   | 'alphaShape'
+  | 'surface'
   | 'spanningTree';
 
 /**
@@ -199,6 +200,11 @@ export class ResidentMesh<Arrays, Mesh extends Mesh2 | Mesh3> {
   /** Does the same as {@link Mesh3.alphaShape}. */
   alphaShape(...args: Parameters<Mesh['alphaShape']>) {
     return this.#ask('alphaShape', args);
+  }
+
+  /** Does the same as {@link Mesh3.surface} or {@link Mesh2.surface}. */
+  surface(...args: Parameters<Mesh['surface']>) {
+    return this.#ask('surface', args);
   }
 
   /** Does the same as {@link Mesh3.spanningTree}. */

@@ -3,7 +3,6 @@
 import { moduleTools } from '#assets';
 import {
   type Bytes,
-  type Coordinates,
   type Doubles,
   inThisRealm,
   isArrayBuffer,
@@ -11,11 +10,10 @@ import {
   kindOf,
 } from './arrays.js';
 import { GdelError } from './errors.js';
-import { bad, objectOf, optionsOf, taskOptions } from './options.js';
-import { coordinatesInSlices } from './points.js';
+import { bad, checkArrays, checkInteger, objectOf, optionsOf, taskOptions } from './options.js';
+import { copyOf } from './points.js';
 import type { TaskName, Tasks } from './protocol.js';
 import { runShared } from './shared.js';
-import { throwIfAborted } from './stop.js';
 import type {
   Distribution,
   Distribution2,
@@ -72,13 +70,9 @@ export async function generate2d(
 /** Returns the checked arguments of the generators. */
 function cloud(kind: string, count: number, options: GenerateOptions | undefined) {
   const { seed = 1 } = optionsOf(options);
-  const isCount = (n: unknown, max: number) =>
-    Number.isInteger(n) && (n as number) >= 0 && (n as number) <= max;
   if (typeof kind !== 'string') throw bad('the distribution', 'a name', kind);
-  if (!isCount(count, 2 ** 27))
-    throw bad('the number of points', 'an integer from 0 to 2²⁷', count);
-  if (!isCount(seed, Number.MAX_SAFE_INTEGER))
-    throw bad('the seed', 'an integer from 0 to 2⁵³ − 1', seed);
+  checkInteger('the number of points', count, 0, 2 ** 27);
+  checkInteger('the seed', seed, 0, Number.MAX_SAFE_INTEGER);
   return { kind, count, seed: BigInt(seed) };
 }
 
@@ -142,16 +136,9 @@ export async function verify(
   mesh: MeshView,
   options?: TaskOptions,
 ): Promise<Report> {
-  objectOf('the mesh', mesh);
-  const view = {
-    tetrahedra: required(mesh, 'tetrahedra', 'Uint32Array'),
-    neighbors: optional(mesh, 'neighbors', 'Int32Array'),
-    hull: optional(mesh, 'hull', 'Uint32Array'),
-    duplicateOf: optional(mesh, 'duplicateOf', 'Int32Array'),
-    dimension: dimensionOf(mesh.dimension),
-  };
+  const view = viewOf(mesh, 'tetrahedra', 'neighbors') as MeshView;
   const task = taskOptions(optionsOf(options));
-  return run('verify', { points: await coordinatesOf(points, 3, task), mesh: view }, task);
+  return run('verify', { points: await copyOf(points, 3, task), mesh: view }, task);
 }
 
 /** Does for a 2D mesh what {@link verify} does in 3D. */
@@ -160,16 +147,21 @@ export async function verify2d(
   mesh: MeshView2,
   options?: TaskOptions,
 ): Promise<Report2> {
+  const view = viewOf(mesh, 'triangles', 'halfedges') as MeshView2;
+  const task = taskOptions(optionsOf(options));
+  return run('verify2d', { points: await copyOf(points, 2, task), mesh: view }, task);
+}
+
+/** Returns the arrays of a mesh that the verifier looks at, checked. */
+function viewOf(mesh: MeshView | MeshView2, simplices: string, neighbors: string): object {
   objectOf('the mesh', mesh);
-  const view = {
-    triangles: required(mesh, 'triangles', 'Uint32Array'),
-    halfedges: optional(mesh, 'halfedges', 'Int32Array'),
+  return {
+    [simplices]: required(mesh, simplices, 'Uint32Array'),
+    [neighbors]: optional(mesh, neighbors, 'Int32Array'),
     hull: optional(mesh, 'hull', 'Uint32Array'),
     duplicateOf: optional(mesh, 'duplicateOf', 'Int32Array'),
     dimension: dimensionOf(mesh.dimension),
   };
-  const task = taskOptions(optionsOf(options));
-  return run('verify2d', { points: await coordinatesOf(points, 2, task), mesh: view }, task);
 }
 
 interface Kinds {
@@ -203,41 +195,12 @@ function dimensionOf(dimension: unknown): number | undefined {
   return dimension as number | undefined;
 }
 
-function coordinatesOf(
-  points: Points,
-  dimension: number,
-  { signal }: TaskOptions,
-): Promise<Coordinates> {
-  const conversion = { dimension, transfer: false, point: undefined };
-  return coordinatesInSlices(points, conversion, () => throwIfAborted(signal));
-}
-
-/** Returns a 3D mesh as files of a format, by extension. */
-export async function write(
-  points: Coordinates,
-  mesh: MeshView,
-  format: string,
+/** Returns a mesh as files of a format, by extension. */
+export async function write<T extends 'write' | 'write2d'>(
+  task: T,
+  args: Tasks[T]['args'],
   options: TaskOptions | undefined,
 ): Promise<Record<string, Bytes>> {
-  checkOwned({ points, ...mesh });
-  return run('write', { points, mesh, format }, taskOptions(optionsOf(options)));
-}
-
-/** Returns a 2D mesh as files of a format, by extension. */
-export async function write2d(
-  points: Coordinates,
-  mesh: MeshView2,
-  format: string,
-  options: TaskOptions | undefined,
-): Promise<Record<string, Bytes>> {
-  checkOwned({ points, ...mesh });
-  return run('write2d', { points, mesh, format }, taskOptions(optionsOf(options)));
-}
-
-/** Checks that the arrays of a mesh were not given to somebody else. */
-function checkOwned(arrays: object): void {
-  for (const [name, array] of Object.entries(arrays)) {
-    if (ArrayBuffer.isView(array) && isDetached(array))
-      throw new GdelError('BAD_INPUT', `the mesh’s ${name} are detached: they were transferred`);
-  }
+  checkArrays({ points: args.points, ...args.mesh });
+  return run(task, args, taskOptions(optionsOf(options)));
 }

@@ -2,19 +2,19 @@
 //! counter-clockwise by the negation of all *y*, which is undone in what is returned.
 
 use gdel::{
-    AlphaShape, Clip, Csr, Error, Interpolation, Interpolator, Location, Locator, Mesh, Mesh2, Mesh3, Points,
-    SpanningTree, Voronoi,
+    AlphaShape, Clip, Csr, Error, Interpolation, Interpolator, Location, Locator, Mesh, Mesh2, Mesh3, Points, Side,
+    SpanningTree, Surface, SurfaceOptions, Voronoi,
     internals::{
         cpu::edit::Used,
-        derived::{AlphaEdges, StolenMeasures, VoronoiShapes},
+        derived::{AlphaEdges, StolenMeasures, SurfaceMesh, VoronoiShapes},
         geometry::{Euclidean, Geometry},
     },
 };
-use js_sys::{Float64Array, Function, Int32Array, Uint32Array};
+use js_sys::{Float64Array, Function, Int32Array, Uint8Array, Uint32Array};
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
 use crate::{
-    mesh::{CallerMesh, points_of_mesh},
+    mesh::{CallerMesh, get, points_of_mesh},
     objects::{Thrown, error, object, set, signed},
     points::{Coordinates, room, zeros},
 };
@@ -228,12 +228,14 @@ fn numbers_of(array: &Float64Array) -> Result<Vec<f64>, Thrown> {
 }
 
 /// Returns coordinates, interleaved.
-fn coordinates<const D: usize>(mut points: Vec<[f64; D]>) -> JsValue {
-    if D == 2 {
-        // Not −0.
-        points.iter_mut().for_each(|p| p[1] = 0.0 - p[1]);
+fn coordinates<const D: usize>(points: &[[f64; D]]) -> Float64Array {
+    if D != 2 {
+        return Float64Array::new_from_slice(points.as_flattened());
     }
-    Float64Array::new_from_slice(points.as_flattened()).into()
+    let mut points = points.to_vec();
+    // Not −0.
+    points.iter_mut().for_each(|p| p[1] = 0.0 - p[1]);
+    Float64Array::new_from_slice(points.as_flattened())
 }
 
 fn offsets(offsets: &[usize]) -> JsValue {
@@ -417,14 +419,14 @@ where
     let diagram = voronoi.diagram();
     task.report(0.9)?;
     Ok(object([
-        ("vertices", coordinates(diagram.vertices)),
+        ("vertices", coordinates(&diagram.vertices).into()),
         ("facetOffsets", offsets(&diagram.facets.offsets)),
         ("facets", Uint32Array::new_from_slice(&diagram.facets.indices).into()),
         ("neighbors", signed(&diagram.neighbors).into()),
         ("areas", Float64Array::new_from_slice(&diagram.areas).into()),
         ("cells", offsets(&diagram.cells)),
         ("volumes", Float64Array::new_from_slice(&diagram.volumes).into()),
-        ("centroids", coordinates(diagram.centroids)),
+        ("centroids", coordinates(&diagram.centroids).into()),
     ]))
 }
 
@@ -475,6 +477,74 @@ where
         ("radii", Float64Array::new_from_slice(&radii).into()),
         ("criticalValues", Float64Array::new_from_slice(&critical).into()),
     ]))
+}
+
+/// Returns the closed surface through the points. What `options` do not have is as in
+/// [`SurfaceOptions::default`].
+#[wasm_bindgen]
+pub fn surface(
+    dimension: u32,
+    points: &JsValue,
+    mesh: &JsValue,
+    options: &JsValue,
+    report: Function,
+) -> Result<JsValue, Thrown> {
+    in_dimension!(dimension, surface_in(points, mesh, options, report))
+}
+
+fn surface_in<M: OfCaller<D, N>, const D: usize, const N: usize>(
+    points: &JsValue,
+    mesh: &JsValue,
+    options: &JsValue,
+    report: Function,
+) -> Result<JsValue, Thrown>
+where
+    Euclidean: SurfaceMesh<D, N>,
+{
+    let task = Task::<M>::new::<D, N>(points, mesh, report, "surface")?;
+    let surface = Surface::new(&task.mesh, task.points.points::<D>()?, &surface_options(options))?;
+    task.report(0.9)?;
+    let sides: Vec<u8> = surface.sides().iter().map(|&side| code_of(side)).collect();
+    let [pieces, cavities] = surface.dropped();
+    let facets = if D == 2 { "edges" } else { "triangles" };
+    let solid = match get(options, "solid").is_truthy() {
+        true => Uint32Array::new_from_slice(surface.solid().as_flattened()).into(),
+        false => JsValue::NULL,
+    };
+    Ok(object([
+        (facets, Uint32Array::new_from_slice(surface.facets().as_flattened()).into()),
+        ("vertices", task.points.in_same_precision(coordinates(surface.vertices()))),
+        ("sources", signed(surface.sources()).into()),
+        ("sides", Uint8Array::new_from_slice(&sides).into()),
+        ("volume", surface.volume().into()),
+        ("area", surface.area().into()),
+        ("components", surface.components().into()),
+        ("genus", surface.genus().into()),
+        ("closed", surface.is_closed().into()),
+        ("noise", surface.noise().into()),
+        ("isolated", surface.isolated().into()),
+        ("droppedPieces", pieces.into()),
+        ("filledCavities", cavities.into()),
+        ("moved", surface.moved_points().map_or(JsValue::NULL, |points| coordinates(points).into())),
+        ("solid", solid),
+    ]))
+}
+
+fn surface_options(options: &JsValue) -> SurfaceOptions {
+    let mut found = SurfaceOptions::default();
+    found.min_part = get(options, "minPart").as_f64().unwrap_or(found.min_part);
+    found.drop_isolated = get(options, "dropIsolated").as_bool().unwrap_or(found.drop_isolated);
+    found.smooth = get(options, "smooth").as_f64().map(|times| times as u32);
+    found
+}
+
+/// Returns the number that says where a point lies.
+fn code_of(side: Side) -> u8 {
+    match side {
+        Side::Outside => 0,
+        Side::On => 1,
+        Side::Inside => 2,
+    }
 }
 
 /// Returns the minimum spanning tree.
@@ -553,7 +623,7 @@ where
     let Shapes { circumcenters, circumradii, volumes, radius_ratios, angles } = task.mesh.shapes(points);
     task.report(0.9)?;
     Ok(object([
-        ("circumcenters", coordinates(circumcenters)),
+        ("circumcenters", coordinates(&circumcenters).into()),
         ("circumradii", Float64Array::new_from_slice(&circumradii).into()),
         ("volumes", Float64Array::new_from_slice(&volumes).into()),
         ("radiusRatios", Float64Array::new_from_slice(&radius_ratios).into()),

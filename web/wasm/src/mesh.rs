@@ -102,7 +102,8 @@ pub(crate) fn points_of_mesh<const D: usize>(points: &JsValue) -> Result<Coordin
     Ok(coordinates)
 }
 
-fn get(object: &JsValue, name: &str) -> JsValue {
+/// Returns a property, undefined where there is none.
+pub(crate) fn get(object: &JsValue, name: &str) -> JsValue {
     Reflect::get(object, &name.into()).unwrap_or(JsValue::UNDEFINED)
 }
 

@@ -53,7 +53,9 @@ impl From<Error> for Thrown {
             Error::NotFinite { .. } => "NOT_FINITE",
             Error::NotWholePoints { .. } | Error::ArrayShape { .. } | Error::ArrayLayout => "BAD_INPUT",
             Error::PointCount { .. } | Error::ValueCount { .. } | Error::EmptyBox { .. } => "BAD_INPUT",
-            Error::BadAlpha | Error::BadIndex { .. } | Error::BrokenMesh { .. } => "BAD_INPUT",
+            Error::BadAlpha | Error::BadOption { .. } | Error::BadIndex { .. } | Error::BrokenMesh { .. } => {
+                "BAD_INPUT"
+            }
             Error::TooManyPoints { .. } => "TOO_MANY_POINTS",
             Error::GpuUnavailable { .. } | Error::NoAdapter { .. } | Error::AdapterNotFound { .. } => "NO_ADAPTER",
             Error::DeviceLost { .. } => "DEVICE_LOST",

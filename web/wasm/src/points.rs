@@ -32,6 +32,15 @@ impl Coordinates {
         }
     }
 
+    /// Converts an array to the precision of these coordinates.
+    #[cfg(feature = "derived")]
+    pub(crate) fn in_same_precision(&self, array: Float64Array) -> JsValue {
+        match self {
+            Coordinates::F32(_) => Float32Array::new(&array).into(),
+            Coordinates::F64(_) => array.into(),
+        }
+    }
+
     /// Returns some of the coordinates as points, counted in points.
     #[cfg(feature = "derived")]
     pub(crate) fn part<const D: usize>(&self, range: std::ops::Range<usize>) -> Result<Points<'_, D>, Error> {
