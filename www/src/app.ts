@@ -4,7 +4,8 @@ import type { Dimension } from './geometry/dimension';
 import { connect } from './model/client';
 import type { Edit } from './model/edits';
 import type { Drawing, Summary } from './model/model';
-import { type Source, titleOf } from './model/source';
+import type { Found } from './model/scanned';
+import { filterFor, type Source, titleOf } from './model/source';
 import type { Progress } from './model/worker';
 import type { Page, Part } from './page';
 import {
@@ -12,7 +13,6 @@ import {
   defaults,
   FRESH,
   fileIn,
-  filterFor,
   fromHash,
   type LinkedFile,
   type Settings,
@@ -45,6 +45,7 @@ import { runPanel, whyNotRecord } from './ui/runPanel';
 import { scaleBar } from './ui/scaleBar';
 import { wireShare } from './ui/share';
 import { showStrip } from './ui/strip';
+import { surfaceLine } from './ui/surface';
 import { wireTabs } from './ui/tabs';
 import { paint, wireTheme } from './ui/theme';
 import { usePanel } from './ui/usePanel';
@@ -63,6 +64,7 @@ export class App implements Page {
     ),
   );
   summary: Summary | null = null;
+  surface: Found | null = null;
   live = false;
   hasGpu: boolean | null = null;
   tool: Tool = 'move';
@@ -70,6 +72,8 @@ export class App implements Page {
   /** What was there when the visitor left for the other dimension. */
   private left: Settings | null = null;
   private editing = false;
+  /** The search for a surface, and of which run that is. */
+  private finding: { run: number; done: Promise<void> } | null = null;
   /** Counts the runs: what an earlier one still says is no longer of interest. */
   private lastRun = 0;
   /** Whether a run comes from the browser's history. */
@@ -106,6 +110,7 @@ export class App implements Page {
       viewPanel(this),
       dock(this),
       notes(this),
+      surfaceLine(this),
       scaleBar(this),
       axes(this),
       ruler(this),
@@ -262,13 +267,15 @@ export class App implements Page {
       }
       Object.assign(before, settings);
       this.summary = summary;
+      this.surface = null;
       showResult(summary, titleOf(this.settings.source));
       showStrip(summary);
       for (const part of this.parts) part.ran?.(summary);
       await this.stage.newMesh(isNew || run === 1);
       this.change(settings);
       this.address.write();
-      await this.stage.open();
+      if (this.settings.filter === 'surface') await this.findSurface();
+      if (isLast()) await this.stage.open();
       return true;
     } catch (error) {
       if (isLast()) {
@@ -282,8 +289,48 @@ export class App implements Page {
     }
   }
 
+  /**
+   * Finds the surface of the points, which until then are shown as a carved solid, and shows it. Where
+   * they are no scan, and nobody has asked for it, they stay so.
+   */
+  private findSurface(): Promise<void> {
+    const run = this.lastRun;
+    if (this.finding?.run !== run || this.surface) this.finding = { run, done: this.find(run) };
+    return this.finding.done;
+  }
+
+  private async find(run: number): Promise<void> {
+    let found: Found | null = null;
+    showBusy({ phase: 'Finding the surface', fraction: 0 });
+    try {
+      found = await this.model.findSurface();
+    } catch (error) {
+      // Points of a file were to be seen, and are.
+      if (run === this.lastRun && !this.isSurfaceDefault)
+        showMessage(complaint(this.settings.source, error));
+    }
+    if (run !== this.lastRun) return;
+    showBusy(null);
+    if (this.settings.filter !== 'surface') return;
+    if (!found?.triangles || (this.isSurfaceDefault && !found.suits)) {
+      this.change({ filter: 'carve' });
+      return;
+    }
+    this.surface = found;
+    for (const part of this.parts) part.found?.(found);
+    this.tell();
+    await this.stage.draw();
+  }
+
+  /** Whether the surface is shown unless something else is asked for. */
+  private get isSurfaceDefault(): boolean {
+    return filterFor(this.settings.source) === 'surface';
+  }
+
   change(settings: Partial<Settings>): void {
     Object.assign(this.settings, settings);
+    if (settings.filter === 'surface' && !this.surface && this.summary && !this.live)
+      void whileBusy(this.findSurface());
     if (
       (settings.color === 'phase' || settings.layers?.facets) &&
       this.summary &&

@@ -2,6 +2,7 @@ import type { Dimension } from './geometry/dimension';
 import type { ModelClient } from './model/client';
 import type { Edit } from './model/edits';
 import type { Drawing, Summary } from './model/model';
+import type { Found } from './model/scanned';
 import type { Source } from './model/source';
 import type { Settings, Tool, viewOf } from './settings';
 import type { Viewer } from './view/viewer';
@@ -14,6 +15,8 @@ export interface Page {
   readonly viewer: Viewer | null;
   /** What the last run gave; null before the first has ended. */
   readonly summary: Summary | null;
+  /** The surface of the points; null before it is found, and where there is none. */
+  readonly surface: Found | null;
   /** How the points are looked at and cut, chosen or not. */
   readonly view: ReturnType<typeof viewOf>;
   /** Whether points move: then the live mode draws, not the page. */
@@ -65,6 +68,8 @@ export interface Part {
   changed?(settings: Settings): void;
   /** Points begin to move, or no longer do: what was found out about the mesh is not about them. */
   lived?(on: boolean): void;
+  /** The surface of the points was found. */
+  found?(surface: Found): void;
   /** There is a new drawing. */
   drew?(drawing: Drawing): void;
   /** The camera has moved, or the drawing has another size. */

@@ -8,6 +8,7 @@ import type { Summary } from './model/model';
 import {
   DISTRIBUTIONS,
   type Distribution,
+  filterFor,
   SAMPLES,
   type Sample,
   type Source,
@@ -70,11 +71,6 @@ export const FRESH = {
   apart: 0,
   camera: null,
 } as const;
-
-/** What suits a source: the carved solid of a scan, all of a synthetic cloud. */
-export function filterFor({ kind, dimension }: Source): FilterKind {
-  return kind === 'generator' || dimension === 2 ? 'all' : 'carve';
-}
 
 /**
  * What tells most: inside a scan sizes differ by orders of magnitude, in a synthetic cloud shapes
@@ -181,8 +177,8 @@ export function fromHash(hash: string): Settings {
   settings.map = choice('map', Object.keys(COLOR_MAPS) as ColorMapName[], settings.map);
   settings.filter = choice(
     'filter',
-    dimension === 2 ? ['all', 'alpha'] : ['all', 'alpha', 'carve'],
-    filterFor(settings.source),
+    dimension === 2 ? ['all', 'alpha'] : ['all', 'surface', 'alpha', 'carve'],
+    filterFor(given.has('file') ? { kind: 'file', dimension } : settings.source),
   );
   settings.up = UPS.find((up) => up === given.get('up')) ?? null;
   const alpha = Number(given.get('alpha'));

@@ -229,9 +229,12 @@ export class Stage {
   request(): DrawRequest {
     const { settings, summary, view } = this.page;
     const { filter, alpha, keep, color, apart, layers, source } = settings;
+    const isSurface = filter === 'surface';
     return {
-      filter: { kind: filter, alpha },
-      plane: { normal: view.normal, keep: this.sweep ?? keep },
+      // Until the surface is found, it is carved.
+      filter: { kind: isSurface && !this.page.surface ? 'carve' : filter, alpha },
+      // A surface is whole unless it was cut by hand.
+      plane: { normal: view.normal, keep: this.sweep ?? keep ?? (isSurface ? 1 : null) },
       // Only a recorded run tells the phases.
       color: color === 'phase' && !summary?.trace ? 'quality' : color,
       pieces: apart > 0,
@@ -285,6 +288,10 @@ export class Stage {
    */
   async open(): Promise<void> {
     if (this.sweep === null || !this.viewer) return;
+    if (this.page.settings.filter === 'surface') {
+      this.sweep = null;
+      return;
+    }
     const { meshes } = this;
     await this.draw();
     const started = performance.now();

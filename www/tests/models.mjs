@@ -64,6 +64,20 @@ export function figure(up) {
   return points;
 }
 
+/** Points on a torus whose tube has a radius of 0.4, around a circle of radius 1. */
+export function torus(count, noise = 0) {
+  const random = randomNumbers(9);
+  const points = [];
+  while (points.length < count) {
+    const [u, v] = [2 * Math.PI * random(), 2 * Math.PI * random()];
+    const out = 1 + 0.4 * Math.cos(v);
+    if (1.4 * random() > out) continue;
+    const p = [out * Math.cos(u), out * Math.sin(u), 0.4 * Math.sin(v)];
+    points.push(p.map((x) => x + noise * (random() + random() + random() - 1.5)));
+  }
+  return points;
+}
+
 /** An angle of two plates, 80 by 40 and 60 by 40, 6 thick, as STL: 20 triangles and 12 corners. */
 export function bracket() {
   const triangles = [];

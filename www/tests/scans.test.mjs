@@ -34,6 +34,7 @@ import {
   ply,
   randomNumbers,
   terrestrial,
+  torus,
   xyz,
 } from './models.mjs';
 import { site } from './site.mjs';
@@ -115,6 +116,83 @@ describe('a scan', () => {
     assert.equal(await text(other, 'shown'), await text(page, 'shown'));
     assert.deepEqual(other.problems, []);
     await other.context().close();
+  });
+
+  test('is seen as its closed surface first: whole, in its colours, and as large as it is', async () => {
+    await drop(page, 'ring.ply', coloredPly(torus(8000)));
+    const line = await text(page, 'surface-text');
+    assert.match(line, /^Closed surface: volume [\d.]+ file units³, area [\d.]+ file units²\.$/);
+    const [volume, area] = numbers(line);
+    assert.ok(Math.abs(volume / (2 * Math.PI ** 2 * 0.16) - 1) < 0.02, line);
+    assert.ok(Math.abs(area / (4 * Math.PI ** 2 * 0.4) - 1) < 0.02, line);
+    assert.equal(await page.inputValue('#keep'), '1');
+    assert.doesNotMatch(await addressOf(page), /keep|filter/);
+    for (const channel of [0, 2]) assert.ok((await shareOfPixels(page, channel)) > 0.05);
+    await pictureOf(page, 'scan-surface');
+    await expectAccessible(page, 'surface');
+    const whole = await shown(page);
+    assert.ok(whole.shown < whole.total);
+    // The solid is cut and pulled apart as all others are.
+    await slide(page, 'keep', 0.5);
+    const half = (await shown(page)).shown / whole.shown;
+    assert.ok(half > 0.3 && half < 0.7, `${half} of the solid`);
+    await pictureOf(page, 'scan-surface-cut');
+    await slide(page, 'apart', 0.3);
+    await pictureOf(page, 'scan-surface-exploded');
+    await slide(page, 'apart', 0);
+    // Whoever explores radii leaves the surface, and comes back to it.
+    await choose(page, 'mode', 'solid');
+    assert.equal(await text(page, 'alpha-value'), 'the surface');
+    await page.getByRole('button', { name: 'Auto', exact: true }).click();
+    await settled(page);
+    assert.match(await text(page, 'alpha-value'), /^α = /);
+    assert.ok(await page.locator('#surface').isHidden());
+    assert.match(await addressOf(page), /filter=carve/);
+    await tab(page, 'view');
+    await choose(page, 'filter', 'surface');
+    assert.equal(await text(page, 'surface-text'), line);
+    await choose(page, 'mode', 'slice');
+  });
+
+  test('is saved for a printer from where its size is said', async () => {
+    await drop(page, 'ring.ply', ply(torus(5000)));
+    const folder = mkdtempSync(join(tmpdir(), 'gdel-scan-'));
+    const files = {};
+    for (const format of ['STL', '3MF', 'GLB']) {
+      const [path] = await save(page, `Save for printing as ${format}`, folder);
+      assert.match(path, /ring\.(stl|3mf|glb)$/);
+      files[format] = readFileSync(path);
+    }
+    rmSync(folder, { recursive: true });
+    const volume = volumeOf(files.STL) / (2 * Math.PI ** 2 * 0.16);
+    assert.ok(Math.abs(volume - 1) < 0.02, `${volume} of the torus`);
+    assert.equal(files['3MF'].subarray(0, 2).toString(), 'PK');
+    assert.equal(files.GLB.subarray(0, 4).toString(), 'glTF');
+  });
+
+  test('with noise and strays has a smooth surface, and the page says so', async () => {
+    const strays = [
+      [5, 5, 5],
+      [-5, 4, 5],
+    ];
+    await drop(page, 'noisy.xyz', xyz([...torus(8000, 0.02), ...strays]));
+    const line = await text(page, 'surface-text');
+    assert.match(line, /2 stray points left out\. Noise was smoothed\.$/);
+    assert.ok(Math.abs(numbers(line)[0] / (2 * Math.PI ** 2 * 0.16) - 1) < 0.03, line);
+    await pictureOf(page, 'scan-noisy');
+  });
+
+  test('whose points fill a volume is carved and cut, unless its surface is asked for', async () => {
+    const random = randomNumbers(5);
+    const cube = Array.from({ length: 3000 }, () => [random(), random(), random()]);
+    await drop(page, 'cube.xyz', xyz(cube));
+    assert.ok(await page.locator('#surface').isHidden());
+    assert.ok((await page.inputValue('#keep')) < 1);
+    await tab(page, 'view');
+    assert.ok(await page.isChecked('input[name=filter][value=carve]'));
+    await drop(page, 'flat.xyz', '0 0 0\n1 0 0\n0 1 0\n1 1 0\n');
+    assert.ok(await page.locator('#surface').isHidden());
+    assert.ok(await page.locator('#message').isHidden());
   });
 
   test('has its own colours outside, and the quantity inside', async () => {

@@ -10,6 +10,8 @@ export type FilterKind =
   | 'all'
   /** The alpha complex: the simplices with a circumradius of at most alpha. */
   | 'alpha'
+  /** The solid that the closed surface of a scan encloses. */
+  | 'surface'
   /** What a ball of radius alpha cannot carve away from outside; see `carvingRadii`. */
   | 'carve';
 

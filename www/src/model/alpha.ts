@@ -26,7 +26,7 @@ export class AlphaRadii {
 
   /** Returns the radii that a filter compares with alpha; null where it keeps everything. */
   radii(kind: FilterKind): Float32Array | null {
-    if (kind === 'all') return null;
+    if (kind === 'all' || kind === 'surface') return null;
     if (kind === 'alpha') return this.measured().circumradius;
     this.carving ??= carvingRadii(this.points, this.simplices, this.neighbors);
     return this.carving;

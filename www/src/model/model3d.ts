@@ -2,16 +2,17 @@ import type { Mesh3, RunOptions, Triangulator, VoronoiArrays } from 'gdel-wasm';
 import { surfaceOfCells } from '../geometry/cells';
 import { type CutOf, type CutPart, colorBytes, filterBytes, inOrder } from '../geometry/cut';
 import { type Filter, type Kept, keep } from '../geometry/filter';
-import { circumcenter, type Measures, measure } from '../geometry/measures';
-import { FACETS, type Frame, frameOf, type Tetrahedralisation, toFrame } from '../geometry/mesh';
+import { circumcenter, measure } from '../geometry/measures';
+import { FACETS, type Frame, frameOf, toFrame } from '../geometry/mesh';
 import { firstHit, placeOf, type Ray } from '../geometry/pick';
 import { outermost, piecesOf, trianglesOf } from '../geometry/pieces';
-import { type Heights, heightsAlong, keepOf, levelOf, type Plane } from '../geometry/plane';
+import { type Heights, heightsAlong, keepOf, levelOf } from '../geometry/plane';
 import { type ColorScale, mapping, positionOn, scaleFor, scaleOf } from '../geometry/scale';
 import { boundaryOf, type Surface, surfaceOf } from '../geometry/surface';
 import { detectUp, poseFor } from '../geometry/up';
 import type { About } from './about';
 import { AlphaRadii } from './alpha';
+import { Body } from './body';
 import {
   cornersOf,
   type Drawing,
@@ -23,10 +24,8 @@ import {
   type Picked,
   type Summary,
 } from './model';
+import { type Found, Scanned } from './scanned';
 import type { SurfaceMesh } from './surfaceFiles';
-
-/** Counts the models, which tells what belongs to which. */
-let models = 0;
 
 /** The corners of a tetrahedron's edges. */
 const EDGES = [0, 1, 0, 2, 0, 3, 1, 2, 1, 3, 2, 3];
@@ -34,23 +33,26 @@ const EDGES = [0, 1, 0, 2, 0, 3, 1, 2, 1, 3, 2, 3];
 /** The model of 3D points. */
 export class Model3d implements Model {
   readonly positions: Float32Array;
-  private readonly drawable: Tetrahedralisation;
+  /** The tetrahedra of the mesh. */
+  private readonly whole: Body;
   private readonly created: Uint8Array | null;
-  private measures: Measures | null = null;
-  private heights: Heights | null = null;
+  private scanned: Scanned | null = null;
+  private finding: Promise<Found> | null = null;
   private readonly alphas: AlphaRadii;
+  /** What the last drawing is of. */
+  private drawn: Body;
   private filtered: { filter: Filter; kept: Kept } | null = null;
   private drawing: Drawing | null = null;
   /** What the last drawing consists of, where that is a cut mesh. */
   private last: {
     cut: CutOf;
+    body: Body;
     kept: Kept;
     heights: Heights;
     value: (t: number) => number;
     /** Makes the surface. */
     surface: () => Surface;
   } | null = null;
-  private readonly number = models++;
   private diagram: VoronoiArrays | null = null;
 
   private constructor(
@@ -60,11 +62,8 @@ export class Model3d implements Model {
     readonly about: About,
   ) {
     this.positions = toFrame(points, frame);
-    this.drawable = {
-      positions: this.positions,
-      tetrahedra: mesh.tetrahedra,
-      neighbors: mesh.neighbors,
-    };
+    this.whole = new Body(points, this.positions, mesh.tetrahedra, mesh.neighbors);
+    this.drawn = this.whole;
     this.created = mesh.trace?.created ?? null;
     this.alphas = new AlphaRadii(
       points,
@@ -72,7 +71,7 @@ export class Model3d implements Model {
       mesh.neighbors,
       3,
       frame,
-      () => this.measured,
+      () => this.whole.measured,
     );
   }
 
@@ -121,6 +120,22 @@ export class Model3d implements Model {
     };
   }
 
+  /** Finds the surface that the points were taken from. */
+  findSurface(signal: AbortSignal): Promise<Found> {
+    const { mesh, points, positions, frame } = this;
+    const finding = (this.finding ??= Scanned.of(mesh, points, positions, frame, signal).then(
+      (scanned) => (this.scanned = scanned).found,
+    ));
+    // After an abort, it may be asked for again.
+    finding.catch(() => (this.finding = null));
+    return finding;
+  }
+
+  /** The surface that {@link findSurface} has found. */
+  get foundSurface(): Scanned | null {
+    return this.scanned;
+  }
+
   async prepare({ cells = null }: DrawRequest): Promise<void> {
     if (cells !== null && this.points.length / 3 <= MAX_CELLS)
       this.diagram ??= await this.mesh.voronoi({ clip: 'hull' });
@@ -129,6 +144,7 @@ export class Model3d implements Model {
   draw(request: DrawRequest): Drawing {
     const { round, cells = null } = request;
     this.last = null;
+    this.drawn = this.whole;
     this.drawing =
       round !== null
         ? this.drawRound(request, round)
@@ -142,7 +158,7 @@ export class Model3d implements Model {
   private drawCells({ plane }: DrawRequest, diagram: VoronoiArrays, apart: number): Drawing {
     const started = performance.now();
     const { positions, frame } = this;
-    const heights = this.heightsAlong(plane.normal);
+    const heights = this.whole.heightsAlong(plane.normal);
     const level = levelOf(plane, heights);
     const [nx, ny, nz] = plane.normal;
     const kept = new Uint8Array(positions.length / 3);
@@ -178,24 +194,26 @@ export class Model3d implements Model {
   private drawResult(request: DrawRequest): Drawing {
     const { filter, plane, color, skin, pieces, onGpu = false } = request;
     const started = performance.now();
+    const body = (this.drawn = this.bodyOf(filter));
     const kept = this.keptBy(filter);
-    const heights = this.heightsAlong(plane.normal);
+    const heights = body.heightsAlong(plane.normal);
     const level = levelOf(plane, heights);
-    const boundary = boundaryOf(this.drawable, kept, heights, level);
-    const scale = scaleFor(color, this.measured, kept.kept);
-    const value = mapping(scale, this.measured, this.created);
+    const boundary = boundaryOf(body, kept, heights, level);
+    const created = body === this.whole ? this.created : null;
+    const by = color === 'phase' && !created ? 'quality' : color;
+    const scale = scaleFor(by, body.measured, kept.kept);
+    const value = mapping(scale, body.measured, created);
     const outside = skin ? { kept: kept.kept, colors: this.about.colors?.rgb ?? null } : null;
-    const surface = () =>
-      surfaceOf(this.drawable, boundary.facets.subarray(0, MAX_FACETS), value, outside);
-    const cut = this.cutOf(request, scale, heights);
-    if (!pieces) this.last = { cut, kept, heights, value, surface };
+    const surface = () => surfaceOf(body, boundary.facets.subarray(0, MAX_FACETS), value, outside);
+    const cut = cutOf(body, request, scale, heights);
+    if (!pieces) this.last = { cut, body, kept, heights, value, surface };
     return {
       surface: pieces || onGpu ? null : surface(),
       ...(pieces ? {} : { cut }),
       pieces: pieces
         ? piecesOf(
-            this.drawable,
-            outermost(this.drawable, kept, heights, level, boundary, MAX_PIECES),
+            body,
+            outermost(body, kept, heights, level, boundary, MAX_PIECES),
             value,
             outside,
           )
@@ -203,7 +221,7 @@ export class Model3d implements Model {
       voronoi: null,
       scale,
       shown: boundary.shown,
-      total: kept.kept.length,
+      total: this.mesh.tetrahedra.length / 4,
       leftOut: pieces ? 0 : Math.max(0, boundary.facets.length - MAX_FACETS),
       keep: keepOf(plane, heights),
       half: keepOf({ ...plane, keep: null }, heights),
@@ -267,9 +285,9 @@ export class Model3d implements Model {
 
   /** Describes a tetrahedron, which the pointer is at in a place of the drawing. */
   private describe(index: number, apart: number, drawn: number[]): Picked {
-    const { tetrahedra, neighbors } = this.mesh;
+    const { tetrahedra, neighbors, positions, measured } = this.drawn;
     const vertices = [...tetrahedra.subarray(4 * index, 4 * index + 4)];
-    const corners = cornersOf(this.positions, vertices);
+    const corners = cornersOf(positions, vertices);
     const { center, scale } = this.frame;
     const place = [0, 0, 0];
     for (let axis = 0; axis < 3; axis++) {
@@ -285,10 +303,10 @@ export class Model3d implements Model {
       place,
       height: null,
       neighbors: [...neighbors.subarray(4 * index, 4 * index + 4)],
-      volume: this.measured.volume[index],
-      circumradius: this.measured.circumradius[index],
-      radiusRatio: this.measured.radiusRatio[index],
-      phase: this.created ? (this.created[index] ? 2 : 1) : null,
+      volume: measured.volume[index],
+      circumradius: measured.circumradius[index],
+      radiusRatio: measured.radiusRatio[index],
+      phase: this.created && this.drawn === this.whole ? (this.created[index] ? 2 : 1) : null,
       outline: withSphere(cornersOf(corners, EDGES), corners),
     };
   }
@@ -309,14 +327,15 @@ export class Model3d implements Model {
     from: number,
     to: number,
   ): ArrayBufferView<ArrayBuffer> | null {
-    const { last, mesh, positions } = this;
+    const { last } = this;
     if (last?.cut.parts[part] !== contents) return null;
-    const { kept, heights, value } = last;
+    const { body, kept, heights, value } = last;
+    const { positions } = body;
     switch (part) {
       case 'tetrahedra':
-        return mesh.tetrahedra.slice(4 * from, 4 * to);
+        return body.tetrahedra.slice(4 * from, 4 * to);
       case 'neighbors':
-        return mesh.neighbors.slice(4 * from, 4 * to);
+        return body.neighbors.slice(4 * from, 4 * to);
       case 'heights':
         return inOrder(heights.height.subarray(from, to));
       case 'filtered':
@@ -330,40 +349,19 @@ export class Model3d implements Model {
     }
   }
 
-  private cutOf(
-    { filter, skin }: DrawRequest,
-    scale: ColorScale,
-    { normal, extent, middle }: Heights,
-  ): CutOf {
-    const mesh = `mesh ${this.number}`;
-    return {
-      tetrahedra: this.mesh.tetrahedra.length / 4,
-      points: this.positions.length / 3,
-      parts: {
-        tetrahedra: mesh,
-        neighbors: mesh,
-        positions: mesh,
-        colors: mesh,
-        heights: `${mesh} along ${normal}`,
-        filtered: `${mesh} filtered ${JSON.stringify(filter)}`,
-        values: `${mesh} on ${JSON.stringify(scale)}`,
-      },
-      heights: { normal, extent, middle },
-      skin,
-    };
-  }
-
   /** The surface of what a filter keeps, uncut, in the units of the input. */
   surface(filter: Filter): SurfaceMesh {
-    const heights = this.heights ?? this.heightsAlong([0, 0, 1]);
-    const { facets } = boundaryOf(this.drawable, this.keptBy(filter), heights, Infinity);
+    const colors = this.about.colors?.rgb ?? null;
+    if (filter.kind === 'surface' && this.scanned) return this.scanned.triangles(colors);
+    const heights = this.whole.heightsAlong([0, 0, 1]);
+    const { facets } = boundaryOf(this.whole, this.keptBy(filter), heights, Infinity);
     const { tetrahedra } = this.mesh;
     const triangles = new Uint32Array(3 * facets.length);
     for (let i = 0; i < facets.length; i++) {
       const [t, k] = [facets[i] >>> 2, facets[i] & 3];
       for (let j = 0; j < 3; j++) triangles[3 * i + j] = tetrahedra[4 * t + FACETS[3 * k + j]];
     }
-    return { points: this.points, colors: this.about.colors?.rgb ?? null, triangles };
+    return { points: this.points, colors, triangles };
   }
 
   /** The facets that were not locally Delaunay after Phase 1, nine coordinates each. */
@@ -371,8 +369,9 @@ export class Model3d implements Model {
     return cornersOf(this.positions, this.mesh.trace?.nonDelaunayFacets ?? new Uint32Array());
   }
 
-  private get measured(): Measures {
-    return (this.measures ??= measure(this.points, this.mesh.tetrahedra));
+  /** The tetrahedra that a filter chooses from. */
+  private bodyOf({ kind }: Filter): Body {
+    return (kind === 'surface' && this.scanned?.body) || this.whole;
   }
 
   private keptBy(filter: Filter): Kept {
@@ -381,17 +380,36 @@ export class Model3d implements Model {
       const alpha = alphas.of(filter)?.value ?? Infinity;
       this.filtered = {
         filter,
-        kept: keep(alphas.radii(filter.kind), alpha, this.mesh.neighbors),
+        kept: keep(alphas.radii(filter.kind), alpha, this.bodyOf(filter).neighbors),
       };
     }
     return this.filtered!.kept;
   }
+}
 
-  private heightsAlong(normal: Plane['normal']): Heights {
-    if (this.heights?.normal.join() !== normal.join())
-      this.heights = heightsAlong(normal, this.drawable);
-    return this.heights!;
-  }
+/** What the GPU needs to cut a body by itself. */
+function cutOf(
+  { number, tetrahedra, positions }: Body,
+  { filter, skin }: DrawRequest,
+  scale: ColorScale,
+  { normal, extent, middle }: Heights,
+): CutOf {
+  const mesh = `mesh ${number}`;
+  return {
+    tetrahedra: tetrahedra.length / 4,
+    points: positions.length / 3,
+    parts: {
+      tetrahedra: mesh,
+      neighbors: mesh,
+      positions: mesh,
+      colors: mesh,
+      heights: `${mesh} along ${normal}`,
+      filtered: `${mesh} filtered ${JSON.stringify(filter)}`,
+      values: `${mesh} on ${JSON.stringify(scale)}`,
+    },
+    heights: { normal, extent, middle },
+    skin,
+  };
 }
 
 /** The positions of some tetrahedra on the colour scale. */

@@ -44,6 +44,17 @@ export async function save(
   }
 }
 
+/** The formats of printers. */
+export const PRINT_FORMATS = ['STL', '3MF', 'GLB'] as const;
+export type PrintFormat = (typeof PRINT_FORMATS)[number];
+
+/** The surface that was found of the points. */
+export async function printed(model: Model2d | Model3d, format: PrintFormat): Promise<SavedFile> {
+  const surface = model instanceof Model3d ? model.foundSurface?.surface : undefined;
+  if (!surface) throw new Error('There is no surface yet.');
+  return file(format, await surface[`to${format}`]());
+}
+
 const isSurface = (format: Format): format is SurfaceFormat =>
   (SURFACE_FORMATS as readonly string[]).includes(format);
 

@@ -3,6 +3,7 @@ import bunny from '../../samples/bunny.f32.gz?url';
 import dragon from '../../samples/dragon.f32.gz?url';
 import type { Dimension } from '../geometry/dimension';
 import { MANY_CORNERS, pointsOnFaces } from '../geometry/faces';
+import type { FilterKind } from '../geometry/filter';
 import { type About, NOTHING_ABOUT } from './about';
 import { facesOf } from './faceFiles';
 import { landColors, OBJECTS } from './objects';
@@ -95,6 +96,12 @@ export function titleOf(source: Source): string {
   if (source.kind === 'url') return nameIn(source.url);
   if (source.dimension === 3) return DISTRIBUTIONS[3][source.distribution];
   return source.count === 0 ? 'Drawn by hand' : DISTRIBUTIONS[2][source.distribution];
+}
+
+/** What suits a source: the surface of a scan, the carved solid of an object, all of a synthetic cloud. */
+export function filterFor({ kind, dimension }: Pick<Source, 'kind' | 'dimension'>): FilterKind {
+  if (kind === 'generator' || dimension === 2) return 'all';
+  return kind === 'sample' ? 'carve' : 'surface';
 }
 
 export interface LoadOptions {

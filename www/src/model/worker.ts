@@ -19,9 +19,10 @@ import { Live, type LiveFrame } from './live';
 import type { Drawing, DrawRequest, Model, Picked, Summary } from './model';
 import { Model2d } from './model2d';
 import { Model3d } from './model3d';
-import { type Format, type SavedFile, save } from './save';
+import { type Format, type PrintFormat, printed, type SavedFile, save } from './save';
+import type { Found } from './scanned';
 import { Shown } from './shown';
-import { load, type Source } from './source';
+import { filterFor, load, type Source } from './source';
 
 export type Progress = (progress: { phase: string; fraction: number }) => void;
 
@@ -70,8 +71,18 @@ class ModelWorker {
               frameOf(points, 2),
             );
       this.start = { points, about };
+      // While the page shows the points.
+      if (filterFor(source) === 'surface') void this.findSurface().catch(() => {});
       onProgress({ phase: 'Measuring', fraction: 1 });
       return this.model.summary();
+    });
+  }
+
+  /** Finds the surface that the 3D points were taken from. */
+  findSurface(): Promise<Found> {
+    return named(async () => {
+      if (!(this.current instanceof Model3d)) throw new Error('In 2D there is none.');
+      return this.current.findSurface(this.abort.signal);
     });
   }
 
@@ -215,6 +226,11 @@ class ModelWorker {
 
   save(format: Format, filter: Filter): Promise<SavedFile[]> {
     return named(() => save(this.current, filter, format));
+  }
+
+  /** The surface that was found, as a file for a printer. */
+  print(format: PrintFormat): Promise<SavedFile> {
+    return named(() => printed(this.current, format));
   }
 
   /** Moves the points of the live mode to a time in seconds, and triangulates them. */

@@ -5,7 +5,7 @@ import type { Settings } from '../settings';
 
 /** Returns the lines that do with the package what the page has just done, on exactly this input. */
 export function codeFor(
-  { source, backend, edits }: Pick<Settings, 'source' | 'backend' | 'edits'>,
+  { source, backend, edits, filter }: Pick<Settings, 'source' | 'backend' | 'edits' | 'filter'>,
   summary: Pick<Summary, 'onFaces'> | null = null,
 ): string {
   const flat = source.dimension === 2;
@@ -25,7 +25,7 @@ export function codeFor(
     ...(flat ? RESULTS[2] : RESULTS[3]),
     `mesh.stats;      // backend, phases, rounds`,
     ``,
-    `const vtu = await mesh.toVTU();`,
+    ...(filter === 'surface' ? SURFACE : [`const vtu = await mesh.toVTU();`]),
   ].join('\n');
 }
 
@@ -134,6 +134,14 @@ function changes(edits: readonly Edit[], source: Source): string[] {
 const addressOf = (name: string) => name.replace(/[^\w.-]/g, encodeURIComponent);
 
 const quoted = (text: string) => `'${text.replace(/[\\']/g, '\\$&')}'`;
+
+const SURFACE = [
+  `const surface = await mesh.surface();`,
+  `surface.triangles; // 3 vertices each`,
+  `surface.vertices;  // their coordinates`,
+  `surface.volume;    // also area, genus`,
+  `const print = await surface.to3MF();`,
+];
 
 const RESULTS = {
   3: [

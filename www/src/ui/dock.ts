@@ -25,6 +25,7 @@ export function dock(page: Page): Part {
   alpha.addEventListener('input', () => {
     // Each position is a critical value, where more simplices come in, and the last one everything.
     const stops = page.lastDrawing?.alpha?.stops ?? [];
+    if (page.settings.filter === 'surface') return toSolid();
     const at = Math.round(alpha.valueAsNumber * stops.length);
     if (at < stops.length) page.change({ alpha: stops[at] });
     else if (page.settings.filter !== 'all') page.change({ filter: 'all', alpha: null });
@@ -36,7 +37,7 @@ export function dock(page: Page): Part {
   const toSolid = () => {
     const { filter, source } = page.settings;
     const solid = source.dimension === 3 ? 'carve' : 'alpha';
-    page.change({ filter: filter === 'all' ? solid : filter, alpha: null });
+    page.change({ filter: filter === 'all' || filter === 'surface' ? solid : filter, alpha: null });
   };
   const auto = byId<HTMLButtonElement>('alpha-auto');
   auto.addEventListener('click', toSolid);
@@ -72,7 +73,11 @@ export function dock(page: Page): Part {
       alpha.step = String(1 / (stops || 1000));
       alpha.value = String(used && stops ? positionOf(used.value, used.stops) : 1);
       auto.setAttribute('aria-pressed', String(used?.isAuto ?? false));
-      byId('alpha-value').textContent = used ? `α = ${measured(used.value)}` : 'everything';
+      byId('alpha-value').textContent = used
+        ? `α = ${measured(used.value)}`
+        : page.settings.filter === 'surface'
+          ? 'the surface'
+          : 'everything';
       byId('apart-note').textContent =
         pieces && pieces.owners.length < shown
           ? `outermost ${count(pieces.owners.length)} of ${count(shown)}`

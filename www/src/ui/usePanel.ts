@@ -1,9 +1,8 @@
 import { FORMATS, type Format, type SavedFile } from '../model/save';
 import type { Page, Part } from '../page';
-import { codeFor, stemOf } from './code';
-import { complaintAbout } from './complaint';
+import { codeFor } from './code';
 import { byId, count, create } from './dom';
-import { showMessage } from './message';
+import { download } from './download';
 import { nameOf } from './result';
 
 /** The formats of what is to be seen. */
@@ -13,7 +12,9 @@ const VIEWS = ['GLB', 'PNG', 'SVG'] as const;
 export function usePanel(page: Page): Part {
   const buttons = [...FORMATS, ...VIEWS].map((format) => {
     const button = create('button', { type: 'button' }, format);
-    button.addEventListener('click', () => void download(page, format, button));
+    button.addEventListener('click', () =>
+      download(page, format, button, () => filesOf(format, page)),
+    );
     if (format === 'SVG') button.classList.add('only-2d');
     return button;
   });
@@ -49,35 +50,9 @@ async function viewAs(format: (typeof VIEWS)[number], page: Page): Promise<Saved
   };
 }
 
-async function download(
-  page: Page,
-  format: Format | (typeof VIEWS)[number],
-  button: HTMLButtonElement,
-): Promise<void> {
-  button.disabled = true;
-  showMessage(null);
-  try {
-    const files =
-      format === 'GLB' || format === 'PNG' || format === 'SVG'
-        ? [await viewAs(format, page)]
-        : await page.model.save(format, {
-            kind: page.settings.filter,
-            alpha: page.settings.alpha,
-          });
-    const stem = stemOf(page.settings.source);
-    for (const { extension, bytes } of files) {
-      const link = create('a', {
-        href: URL.createObjectURL(new Blob([bytes as Uint8Array<ArrayBuffer>])),
-        download: stem + extension,
-      });
-      link.click();
-      setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
-    }
-  } catch (error) {
-    showMessage(complaintAbout(format, error));
-  } finally {
-    button.disabled = false;
-  }
+async function filesOf(format: Format | (typeof VIEWS)[number], page: Page): Promise<SavedFile[]> {
+  if (format === 'GLB' || format === 'PNG' || format === 'SVG') return [await viewAs(format, page)];
+  return page.model.save(format, { kind: page.settings.filter, alpha: page.settings.alpha });
 }
 
 const bytes = (n: number) =>

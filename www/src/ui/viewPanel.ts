@@ -40,11 +40,14 @@ const SKINS: Record<ColorSource | 'none', string> = {
 const FILTER_NOTES: Record<Dimension, Record<FilterKind, string>> = {
   3: {
     all: 'Every tetrahedron. Together they fill the convex hull.',
+    surface:
+      'The solid inside the closed surface that the points were taken from. Needs no radius.',
     carve: 'Carved from outside with a ball of radius α. Of a scanned surface, the solid remains.',
     alpha: 'Only tetrahedra with a circumradius of at most α.',
   },
   2: {
     all: 'Every triangle. Together they fill the convex hull.',
+    surface: '',
     carve: '',
     alpha: 'Only triangles with a circumradius of at most α.',
   },

@@ -25,10 +25,10 @@ async function run(code: string, files: Record<string, string | Uint8Array> = {}
   const make = new Function(
     'gdel',
     'fetch',
-    `return (async () => { const { ${names} } = gdel; ${body}\nreturn { mesh, vtu }; })()`,
+    `return (async () => { const { ${names} } = gdel; ${body}\nreturn { mesh, saved: typeof vtu === 'undefined' ? print : vtu }; })()`,
   );
-  const { mesh, vtu } = await make(gdel, fetchFile);
-  assert.ok(vtu.length > 0);
+  const { mesh, saved } = await make(gdel, fetchFile);
+  assert.ok(saved.length > 0);
   return mesh;
 }
 
@@ -36,6 +36,7 @@ const settings = (source: Source, edits: readonly Edit[] = []) => ({
   source,
   edits,
   backend: 'cpu' as const,
+  filter: 'all' as const,
 });
 const file = (name: string, dimension: 2 | 3 = 3): Source => ({
   kind: 'file',
@@ -53,6 +54,13 @@ describe('the code on the page', () => {
       const expected = await delaunay3d(await generate(distribution, 60, { seed: 5 }));
       assert.deepEqual(mesh.tetrahedra, expected.tetrahedra);
     }
+  });
+
+  test('finds the surface that is shown, and saves it', async () => {
+    const code = codeFor({ ...settings(file(NAME)), filter: 'surface' });
+    assert.match(code, /surface\.volume/);
+    assert.doesNotMatch(code, /vtu/);
+    assert.equal((await run(code, { [NAME]: xyz })).points.length, 15);
   });
 
   test('changes them as they were changed by hand', async () => {

@@ -3,6 +3,7 @@ import { describe, test } from 'node:test';
 import { keep } from '../../src/geometry/filter';
 import { facetCircumradiusSquared, measure } from '../../src/geometry/measures';
 import { FACETS, frameOf, toFrame } from '../../src/geometry/mesh';
+import { neighborsOf } from '../../src/geometry/neighbors';
 import { firstHit, placeOf } from '../../src/geometry/pick';
 import { outermost, piecesOf, skinOf, trianglesOf } from '../../src/geometry/pieces';
 import { heightsAlong, levelOf } from '../../src/geometry/plane';
@@ -44,7 +45,7 @@ function grid() {
     }
   }
   const mesh = Uint32Array.from(tetrahedra);
-  return { points: Float64Array.from(points), tetrahedra: mesh, neighbors: neighborsOf(mesh) };
+  return { points: Float64Array.from(points), tetrahedra: mesh, neighbors: naiveNeighbors(mesh) };
 }
 
 function positive(points: number[], [a, b, c, d]: number[]): number[] {
@@ -58,7 +59,7 @@ function positive(points: number[], [a, b, c, d]: number[]): number[] {
   return volume > 0 ? [a, b, c, d] : [b, a, c, d];
 }
 
-function neighborsOf(tetrahedra: Uint32Array): Int32Array {
+function naiveNeighbors(tetrahedra: Uint32Array): Int32Array {
   const neighbors = new Int32Array(tetrahedra.length).fill(-1);
   const waiting = new Map<string, number>();
   for (let f = 0; f < tetrahedra.length; f++) {
@@ -93,6 +94,13 @@ function enclosed(triangles: Float32Array): number {
   }
   return volume;
 }
+
+test('neighbours are found, also of a part of the tetrahedra', () => {
+  assert.deepEqual(neighborsOf(tetrahedra), neighbors);
+  const part = tetrahedra.subarray(4 * 7, 4 * 93);
+  assert.deepEqual(neighborsOf(part), naiveNeighbors(part));
+  assert.deepEqual(neighborsOf(new Uint32Array(0)), new Int32Array(0));
+});
 
 describe('measures', () => {
   test('volumes add up to the cube', () => {
