@@ -180,9 +180,10 @@ test('bad options are typed errors', async () => {
   for (const minPart of [-0.1, 1.5, Number.NaN, '0.5', null])
     await bad({ minPart }, /option minPart must be a number from 0 to 1/);
   for (const smooth of [-1, 1.5, 101, 'twice', null])
-    await bad({ smooth }, /option smooth must be an integer from 0 to 100/);
+    await bad({ smooth }, /option smooth must be 'auto' or an integer from 0 to 100/);
   await bad({ dropIsolated: 'no' }, /option dropIsolated must be true or false/);
   await bad({ solid: 1 }, /option solid must be true or false/);
+  await bad({ minPart: () => 0.5 }, /option minPart/);
   await bad(null, /options must be an object/);
   await bad({ signal: {} }, /AbortSignal/);
   const bare = await delaunay3d(corners(0, 1), { outputs: ['hull'] });

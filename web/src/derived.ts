@@ -155,14 +155,11 @@ export class Surface3 extends Triangles {
   }
 }
 
+/** WebAssembly checks the options, all but what cannot be sent to it. */
 export async function surface(source: Source, options: SurfaceOptions | undefined) {
   const { signal, onProgress, ...given } = optionsOf(options);
-  const { minPart = 0, dropIsolated, smooth = 'auto', solid } = given;
-  if (!(typeof minPart === 'number' && minPart >= 0 && minPart <= 1))
-    throw bad('the option minPart', 'a number from 0 to 1', minPart);
-  checkBoolean('dropIsolated', dropIsolated);
-  checkBoolean('solid', solid);
-  if (smooth !== 'auto') checkInteger('the option smooth', smooth, 0, 100);
+  for (const [name, value] of Object.entries(given))
+    if (/function|symbol/.test(typeof value)) throw bad(`the option ${name}`, 'a value', value);
   return run('surface', source, { options: given }, taskOptions({ signal, onProgress }));
 }
 

@@ -502,12 +502,14 @@ where
     Euclidean: SurfaceMesh<D, N>,
 {
     let task = Task::<M>::new::<D, N>(points, mesh, report, "surface")?;
-    let surface = Surface::new(&task.mesh, task.points.points::<D>()?, &surface_options(options))?;
+    let mut is_solid_wanted = false;
+    option(options, "solid", "true or false", JsValue::as_bool, &mut is_solid_wanted)?;
+    let surface = Surface::new(&task.mesh, task.points.points::<D>()?, &surface_options(options)?)?;
     task.report(0.9)?;
     let sides: Vec<u8> = surface.sides().iter().map(|&side| code_of(side)).collect();
     let [pieces, cavities] = surface.dropped();
     let facets = if D == 2 { "edges" } else { "triangles" };
-    let solid = match get(options, "solid").is_truthy() {
+    let solid = match is_solid_wanted {
         true => Uint32Array::new_from_slice(surface.solid().as_flattened()).into(),
         false => JsValue::NULL,
     };
@@ -530,12 +532,35 @@ where
     ]))
 }
 
-fn surface_options(options: &JsValue) -> SurfaceOptions {
+fn surface_options(options: &JsValue) -> Result<SurfaceOptions, Thrown> {
     let mut found = SurfaceOptions::default();
-    found.min_part = get(options, "minPart").as_f64().unwrap_or(found.min_part);
-    found.drop_isolated = get(options, "dropIsolated").as_bool().unwrap_or(found.drop_isolated);
-    found.smooth = get(options, "smooth").as_f64().map(|times| times as u32);
-    found
+    let share = |value: &JsValue| value.as_f64().filter(|share| (0.0..=1.0).contains(share));
+    // `auto` is `None`.
+    let times = |value: &JsValue| match value.as_f64() {
+        Some(times) if (0.0..=100.0).contains(&times) && times.fract() == 0.0 => Some(Some(times as u32)),
+        None if *value == "auto" => Some(None),
+        _ => None,
+    };
+    option(options, "minPart", "a number from 0 to 1", share, &mut found.min_part)?;
+    option(options, "dropIsolated", "true or false", JsValue::as_bool, &mut found.drop_isolated)?;
+    option(options, "smooth", "'auto' or an integer from 0 to 100", times, &mut found.smooth)?;
+    Ok(found)
+}
+
+/// Takes over an option, unless it is not given.
+fn option<T>(
+    options: &JsValue,
+    name: &str,
+    must_be: &str,
+    convert: impl FnOnce(&JsValue) -> Option<T>,
+    to: &mut T,
+) -> Result<(), Thrown> {
+    let value = get(options, name);
+    if !value.is_undefined() {
+        let converted = convert(&value);
+        *to = converted.ok_or_else(|| error("BAD_INPUT", &format!("the option {name} must be {must_be}")))?;
+    }
+    Ok(())
 }
 
 /// Returns the number that says where a point lies.
