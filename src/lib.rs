@@ -96,8 +96,9 @@ pub use d3::{
     verify::{MeshView3, verify3d},
 };
 pub use derived::{
-    AlphaComplex, AlphaShape, AlphaShape2, Cell, Clip, Diagram, FaceClass, Interpolation, Interpolator, Interpolator2,
-    Interval, Location, Locator, Locator2, Side, SpanningTree, Surface, SurfaceOptions, Voronoi, Voronoi2,
+    AlphaComplex, AlphaShape, AlphaShape2, Cell, Clip, Diagram, Evidence, FaceClass, Interpolation, Interpolator,
+    Interpolator2, Interval, Location, Locator, Locator2, Open, Side, SpanningTree, Surface, SurfaceOptions, Voronoi,
+    Voronoi2,
 };
 #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
 pub use derived::{DeviceLocator, DeviceLocator2, Locations};

@@ -4,6 +4,7 @@ mod alpha;
 mod broken;
 #[path = "../shared/clouds.rs"]
 mod clouds;
+mod evidence;
 mod geometry;
 mod inputs;
 mod interpolate;

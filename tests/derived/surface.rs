@@ -22,7 +22,7 @@ fn surface3(points: &[[f64; 3]]) -> Surface {
 }
 
 /// Options with which points are neither dropped nor moved.
-fn as_they_are() -> SurfaceOptions {
+fn as_they_are<const D: usize>() -> SurfaceOptions<'static, D> {
     let mut options = SurfaceOptions::default();
     (options.drop_isolated, options.smooth) = (false, Some(0));
     options
@@ -32,7 +32,7 @@ fn as_they_are() -> SurfaceOptions {
 fn checked<const D: usize, const N: usize>(
     mesh: &impl Mesh<D, N>,
     points: &[[f64; D]],
-    options: &SurfaceOptions,
+    options: &SurfaceOptions<'_, D>,
 ) -> Surface<D, N>
 where
     Euclidean: SurfaceMesh<D, N>,
@@ -158,16 +158,16 @@ fn check<const D: usize, const N: usize>(mesh: &impl Mesh<D, N>, points: &[[f64;
 }
 
 /// Random points of [0, 1)³, for shapes.
-fn random(n: usize, seed: u64) -> Vec<[f64; 3]> {
+pub(crate) fn random(n: usize, seed: u64) -> Vec<[f64; 3]> {
     generate3d(Distribution3::Uniform, n, seed)
 }
 
-fn sphere(n: usize, radius: f64) -> Vec<[f64; 3]> {
+pub(crate) fn sphere(n: usize, radius: f64) -> Vec<[f64; 3]> {
     generate3d(Distribution3::Sphere, n, 5).iter().map(|p| p.map(|x| radius * x)).collect()
 }
 
 /// Random points of a torus with radii 1 and 0.4, of equal density.
-fn torus(n: usize) -> Vec<[f64; 3]> {
+pub(crate) fn torus(n: usize) -> Vec<[f64; 3]> {
     let points = random(3 * n, 7).into_iter().map(|[u, v, w]| (TAU * u, TAU * v, w));
     let kept = points.filter(|&(_, v, w)| w * 1.4 < 1.0 + 0.4 * libm::cos(v));
     kept.map(|(u, v, _)| {
@@ -179,7 +179,7 @@ fn torus(n: usize) -> Vec<[f64; 3]> {
 }
 
 /// Points of the faces of a box, on a grid of `step`.
-fn grid_box(low: [f64; 3], counts: [u32; 3], step: f64) -> Vec<[f64; 3]> {
+pub(crate) fn grid_box(low: [f64; 3], counts: [u32; 3], step: f64) -> Vec<[f64; 3]> {
     let [nx, ny, nz] = counts;
     (0..=nx)
         .flat_map(|x| (0..=ny).flat_map(move |y| (0..=nz).map(move |z| [x, y, z])))
@@ -189,7 +189,7 @@ fn grid_box(low: [f64; 3], counts: [u32; 3], step: f64) -> Vec<[f64; 3]> {
 }
 
 /// Moves each point by a random vector of about this length.
-fn noisy(points: &[[f64; 3]], amount: f64) -> Vec<[f64; 3]> {
+pub(crate) fn noisy(points: &[[f64; 3]], amount: f64) -> Vec<[f64; 3]> {
     let by = generate3d(Distribution3::Gaussian, points.len(), 11);
     points.iter().zip(by).map(|(p, by)| [0, 1, 2].map(|axis| p[axis] + amount * by[axis])).collect()
 }
@@ -392,7 +392,7 @@ fn scale_does_not_matter() {
 #[test]
 fn noise_is_noticed_and_smoothed() {
     let clean = torus(15_000);
-    let default = SurfaceOptions::default();
+    let default = SurfaceOptions::<3>::default();
     let surface = checked(&mesh3(&clean), &clean, &default);
     assert!(surface.noise() < 0.02 && surface.moved_points().is_none(), "{}", surface.noise());
     // A third of the distance between points, with which the cut alone is empty or in pieces.

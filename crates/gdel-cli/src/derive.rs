@@ -164,6 +164,7 @@ impl fmt::Display for Report<'_> {
             match number {
                 Number::Count(count) => writeln!(f, "{name:<16}{count}")?,
                 Number::Real(real) => writeln!(f, "{name:<16}{real}")?,
+                Number::Name(word) => writeln!(f, "{name:<16}{word}")?,
                 Number::Truth(truth) => writeln!(f, "{name:<16}{}", if *truth { "yes" } else { "no" })?,
             }
         }
@@ -172,13 +173,14 @@ impl fmt::Display for Report<'_> {
     }
 }
 
-/// A number, or what is true or not, that a command prints.
+/// A number, what is true or not, or a word, that a command prints.
 #[derive(Clone, Copy, Serialize)]
 #[serde(untagged)]
 pub(super) enum Number {
     Count(usize),
     Real(f64),
     Truth(bool),
+    Name(&'static str),
 }
 
 /// The result of a command, and the numbers about it that are printed.

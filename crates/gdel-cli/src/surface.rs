@@ -5,12 +5,15 @@ use super::{
     dimension::{Triangulation, in_dimension},
     failure::Failure,
 };
-use clap::Args;
+use clap::{Args, ValueEnum, error::ErrorKind};
 use gdel::{
-    Error, Points, Side, Surface, SurfaceOptions,
+    Error, Evidence, Open, Points, Side, Surface, SurfaceOptions,
     internals::{derived::SurfaceMesh, geometry::Euclidean},
 };
-use gdel_io::{CellShape, PointBuf, files::ResultOutput};
+use gdel_io::{
+    CellShape, PointBuf,
+    files::{ResultOutput, shown},
+};
 
 /// Find the closed surface that points of a scan lie on: no normals are needed.
 #[derive(Args)]
@@ -27,6 +30,22 @@ pub(super) struct Arguments {
     /// noise, else never
     #[arg(long, value_name = "N", default_value = "auto", value_parser = parse_smooth)]
     smooth: Smooth,
+    /// The position of the scanner, as X,Y,Z, instead of those that the file has: what it saw the points through is outside
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = parse_position)]
+    sensor: Option<Position>,
+    /// Do without the normals that the file has
+    #[arg(long)]
+    no_normals: bool,
+    /// Do without the positions of scanners that the file has
+    #[arg(long, conflicts_with = "sensor")]
+    no_sensors: bool,
+    /// What is below all points is inside, as in airborne scans of the ground; z is up, in 2D y
+    #[arg(long, visible_alias = "airborne")]
+    below: bool,
+    /// Whether triangles that only close gaps between the points are left out if they are many, as in
+    /// terrain or a scan from one side; without, the surface is closed
+    #[arg(long, value_enum, default_value_t = OpenName::Never)]
+    open: OpenName,
     /// Where to write: the surface as .stl, .ply, .obj, .glb or .3mf, the tetrahedra of the solid as
     /// .vtu; in 2D, .vtu has the curves, and all others have the triangles between them
     #[arg(short, long = "output", value_name = "FILE", value_parser = parse_output)]
@@ -45,6 +64,33 @@ fn parse_smooth(text: &str) -> Result<Smooth, String> {
     }
 }
 
+/// Which surfaces may be open.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum OpenName {
+    Never,
+    Auto,
+}
+
+/// The coordinates of a position: two or three.
+#[derive(Debug, Clone)]
+struct Position(Vec<f64>);
+
+impl Position {
+    /// Returns the position in a dimension.
+    fn in_dimension<const D: usize>(&self) -> Result<[f64; D], Failure> {
+        self.0.as_slice().try_into().map_err(|_| {
+            Failure::Usage(ErrorKind::ValueValidation, format!("--sensor needs {D} coordinates, not {}", self.0.len()))
+        })
+    }
+}
+
+fn parse_position(text: &str) -> Result<Position, String> {
+    let coordinates: Option<Vec<f64>> =
+        text.split(',').map(|x| x.trim().parse().ok().filter(|x: &f64| x.is_finite())).collect();
+    let coordinates = coordinates.filter(|coordinates| matches!(coordinates.len(), 2 | 3));
+    coordinates.map(Position).ok_or_else(|| "numbers with commas between them are needed, as in 1.5,0,-2".into())
+}
+
 fn parse_output(path: &str) -> Result<ResultOutput<SolidFormat>, String> {
     parse_solid(path, "surfaces")
 }
@@ -58,13 +104,33 @@ where
     Euclidean: SurfaceMesh<D, N>,
 {
     let Arguments { common, output, .. } = arguments;
+    let sensor = arguments.sensor.as_ref().map(Position::in_dimension::<D>).transpose()?;
     let cloud = common.read_for::<D, _>(output)?;
     let points = Points::from(&cloud);
     let mut options = SurfaceOptions::default();
+    let sensors = match &sensor {
+        Some(sensor) => std::slice::from_ref(sensor),
+        None if arguments.no_sensors => &[],
+        None => &cloud.sensors,
+    };
+    options.sensors = (!sensors.is_empty()).then_some(Points::F64(sensors));
+    options.normals = cloud.normals.as_deref().filter(|_| !arguments.no_normals).map(Points::F32);
+    options.up = arguments.below.then(|| std::array::from_fn(|axis| if axis == D - 1 { 1.0 } else { 0.0 }));
+    options.open = match arguments.open {
+        OpenName::Never => Open::Never,
+        OpenName::Auto => Open::Auto,
+    };
     options.min_part = arguments.min_part;
     options.drop_isolated = !arguments.keep_isolated;
     options.smooth = arguments.smooth.0;
     let (_, surface) = common.run::<M, D, N, _>(points, "surface", |mesh| find(mesh, points, &options))?;
+    if surface.evidence() == Evidence::Guess {
+        eprintln!(
+            "gdel: {}: the points enclose little, so that which side is inside is a guess; `--below` says that what is \
+             below all points is, as in airborne scans, and `--sensor X,Y,Z` from where they were seen",
+            shown(&common.points)
+        );
+    }
     let moved = surface.moved_points().map_or(points, Points::F64);
     match output.format() {
         SolidFormat::Vtu if D == 2 => {
@@ -82,7 +148,7 @@ where
 fn find<M: gdel::Mesh<D, N>, const D: usize, const N: usize>(
     mesh: &M,
     points: Points<'_, D>,
-    options: &SurfaceOptions,
+    options: &SurfaceOptions<'_, D>,
 ) -> Result<Found<Surface<D, N>>, Error>
 where
     Euclidean: SurfaceMesh<D, N>,
@@ -108,12 +174,25 @@ where
         ("filled_cavities", Number::Count(cavities)),
         ("isolated", Number::Count(surface.isolated())),
         ("noise", Number::Real(surface.noise())),
+        ("side_by", Number::Name(evidence_name(surface.evidence()))),
         ("smoothed", Number::Truth(surface.moved_points().is_some())),
     ];
     if D == 3 {
         numbers.insert(5, ("genus", Number::Count(surface.genus())));
+        numbers.insert(6, ("boundaries", Number::Count(surface.boundaries())));
     }
     Ok(Found { result: surface, numbers })
+}
+
+/// Returns how it is known which side is inside, in a word.
+fn evidence_name(evidence: Evidence) -> &'static str {
+    match evidence {
+        Evidence::Normals => "normals",
+        Evidence::Sensors => "sensors",
+        Evidence::Below => "below",
+        Evidence::Hull => "hull",
+        Evidence::Guess => "guess",
+    }
 }
 
 /// Returns the vertices in the precision of the points: some formats are smaller for single precision.

@@ -1,4 +1,4 @@
-//! The colours of points, from what a file says about each.
+//! The colours and normals of points, from what a file says about each.
 
 /// The origin of the colours of points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -101,8 +101,8 @@ pub(super) struct Colors {
     range: Range,
     rgb: Option<Vec<[u16; 3]>>,
     intensities: Option<Vec<f32>>,
-    /// The values as 16-bit integers.
-    normals: Option<Vec<[u8; 3]>>,
+    /// Of length 1, or zero where one is unknown.
+    normals: Option<Vec<[f32; 3]>>,
 }
 
 impl Colors {
@@ -135,26 +135,33 @@ impl Colors {
         if let Some(normals) = &mut self.normals {
             let length = normal.iter().map(|x| x * x).sum::<f64>().sqrt();
             let unit = if length > 0.0 && length.is_finite() { normal.map(|x| x / length) } else { [0.0; 3] };
-            normals.push(unit.map(|x| nearest(127.5 + 127.5 * x) as u8));
+            normals.push(unit.map(|x| x as f32));
         }
+    }
+
+    /// Returns the normals, unless all are unknown.
+    pub(super) fn take_normals(&mut self) -> Option<Vec<[f32; 3]>> {
+        self.normals.take().filter(|normals| normals.iter().any(|normal| *normal != [0.0; 3]))
     }
 
     /// Returns the colours, else the intensities, else the normals. Values that are equal for all
     /// points are ignored.
-    pub(super) fn finish(self) -> Option<PointColors> {
-        fn varied<T: PartialEq>(values: Option<Vec<T>>) -> Option<Vec<T>> {
+    pub(super) fn finish(&self) -> Option<PointColors> {
+        fn varied<T: PartialEq>(values: Option<&Vec<T>>) -> Option<&Vec<T>> {
             values.filter(|values| values.iter().any(|value| *value != values[0]))
         }
         let colors = |rgb, source| Some(PointColors { rgb, source });
-        if let Some(rgb) = varied(self.rgb) {
+        if let Some(rgb) = varied(self.rgb.as_ref()) {
             let full = self.range.full(rgb.iter().flatten().copied().max().unwrap_or_default());
             let byte = |x: u16| nearest(255.0 * f64::from(x) / full).min(255) as u8;
-            return colors(rgb.into_iter().map(|color| color.map(byte)).collect(), ColorSource::Rgb);
+            return colors(rgb.iter().map(|color| color.map(byte)).collect(), ColorSource::Rgb);
         }
-        if let Some(intensities) = varied(self.intensities) {
-            return colors(greys(&intensities), ColorSource::Intensity);
+        if let Some(intensities) = varied(self.intensities.as_ref()) {
+            return colors(greys(intensities), ColorSource::Intensity);
         }
-        colors(varied(self.normals)?, ColorSource::Normals)
+        let normals = varied(self.normals.as_ref())?;
+        let color = |normal: &[f32; 3]| normal.map(|x| nearest(127.5 + 127.5 * f64::from(x)) as u8);
+        colors(normals.iter().map(color).collect(), ColorSource::Normals)
     }
 }
 

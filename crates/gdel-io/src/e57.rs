@@ -6,7 +6,7 @@
 
 use crate::{
     FormatError, PointCloud,
-    colors::{CHANNELS, Colors, INTENSITY, Range, Sample},
+    colors::{CHANNELS, Colors, INTENSITY, NORMAL, Range, Sample},
     point_cloud::narrow,
 };
 use ::e57::{E57Reader, Error, Header, PointCloud as Scan, RecordDataType, RecordName, RecordValue};
@@ -31,7 +31,10 @@ pub(super) fn read(bytes: &[u8]) -> Result<PointCloud, FormatError> {
     check_counts(&scans, bytes.len())?;
 
     let mut points = Vec::new();
-    let mut colors = Colors::new(std::array::from_fn(|channel| channel <= INTENSITY), Range::Fractions);
+    let has_normals = scans.iter().any(|scan| normal_columns(scan).is_some());
+    let has = std::array::from_fn(|channel| channel <= INTENSITY || has_normals);
+    let mut colors = Colors::new(has, Range::Fractions);
+    let mut sensors = Sensors::new(&scans);
     let mut no_return = 0;
     let mut is_single = true;
     for scan in &scans {
@@ -48,13 +51,68 @@ pub(super) fn read(bytes: &[u8]) -> Result<PointCloud, FormatError> {
             match columns.point(scan, &record).map_err(|error| in_points(error, place))? {
                 Some(point) => {
                     points.push(pose.map_or(point, |pose| pose.transform_point3(point.into()).into()));
-                    colors.push(&tints.sample(scan, &record));
+                    let mut sample = tints.sample(scan, &record);
+                    if let Some(pose) = pose {
+                        let normal = sample[NORMAL..].first_chunk().copied().unwrap_or_default();
+                        let turned: [f64; 3] = pose.transform_vector3(DVec3::from_array(normal)).into();
+                        sample[NORMAL..].copy_from_slice(&turned);
+                    }
+                    colors.push(&sample);
+                    sensors.push(pose);
                 }
                 None => no_return += 1,
             }
         }
     }
-    Ok(PointCloud { no_return, colors: colors.finish(), ..PointCloud::new(narrow(points, is_single))? })
+    let cloud = PointCloud::new(narrow(points, is_single))?.colored(colors);
+    Ok(PointCloud { no_return, sensors: sensors.finish(), ..cloud })
+}
+
+/// The positions of the scanner, which is at the origin of each scan. They are taken only if the file
+/// has poses that are not all the identity, or spherical coordinates: clouds of many scans have neither.
+struct Sensors {
+    are_known: bool,
+    all: Vec<[f64; 3]>,
+}
+
+impl Sensors {
+    fn new(scans: &[Scan]) -> Self {
+        let has_column = |scan: &Scan, name| scan.prototype.iter().any(|column| column.name == name);
+        let is_spherical = |scan: &Scan| has_column(scan, RecordName::SphericalRange);
+        let has_pose = |scan: &Scan| matches!(pose(scan), Ok(Some(_)));
+        // In a file of several scans, the system of one of them may be that of the file.
+        let are_known = scans.iter().any(|scan| has_pose(scan) || is_spherical(scan))
+            && scans.iter().all(|scan| scan.transform.is_some() || is_spherical(scan));
+        Sensors { are_known, all: Vec::new() }
+    }
+
+    /// Adds the position for the next point.
+    fn push(&mut self, pose: Option<DAffine3>) {
+        if self.are_known {
+            self.all.push(pose.map_or([0.0; 3], |pose| pose.translation.into()));
+        }
+    }
+
+    fn finish(mut self) -> Vec<[f64; 3]> {
+        if self.all.iter().all(|position| *position == self.all[0]) {
+            // One for all.
+            self.all.truncate(1);
+        }
+        self.all
+    }
+}
+
+/// Returns the columns of the normals, which are an extension of the format.
+fn normal_columns(scan: &Scan) -> Option<[usize; 3]> {
+    let column = |wanted: &str| {
+        let is_wanted = |name: &RecordName| match name {
+            RecordName::Unknown { name, .. } => name.eq_ignore_ascii_case(wanted),
+            _ => false,
+        };
+        scan.prototype.iter().position(|column| is_wanted(&column.name))
+    };
+    let [x, y, z] = ["normalX", "normalY", "normalZ"].map(column);
+    Some([x?, y?, z?])
 }
 
 /// Compares the numbers of points that the scans promise with the file's `size`, which bounds the
@@ -179,6 +237,7 @@ struct Tints {
     columns: [Option<(usize, f64, f64)>; INTENSITY + 1],
     /// The columns that say which colours and intensities mean nothing.
     invalid: [Option<usize>; 2],
+    normal: Option<[usize; 3]>,
 }
 
 impl Tints {
@@ -197,10 +256,10 @@ impl Tints {
             };
             Some((column, low, high))
         });
-        Tints { columns, invalid: [column(IsColorInvalid), column(IsIntensityInvalid)] }
+        Tints { columns, invalid: [column(IsColorInvalid), column(IsIntensityInvalid)], normal: normal_columns(scan) }
     }
 
-    /// Returns the colours of a record as shares of full light, and its intensity unchanged.
+    /// Returns the colours of a record as shares of full light, and its intensity and normal unchanged.
     fn sample(&self, scan: &Scan, record: &[RecordValue]) -> Sample {
         let kind = |column: usize| &scan.prototype[column].data_type;
         let invalid = self.invalid.map(|column| {
@@ -215,6 +274,9 @@ impl Tints {
             }
             let Ok(value) = record[column].to_f64(kind(column)) else { continue };
             sample[channel] = if is_intensity { value } else { ((value - low) / (high - low)).clamp(0.0, 1.0) };
+        }
+        for (axis, &column) in self.normal.iter().flatten().enumerate() {
+            sample[NORMAL + axis] = record[column].to_f64(kind(column)).unwrap_or(f64::NAN);
         }
         sample
     }

@@ -16,12 +16,22 @@ pub(super) fn read(bytes: &[u8]) -> Result<PointCloud, FormatError> {
     let mut points = Vec::new();
     let mut colors = Colors::new(std::array::from_fn(|channel| channel < 3), Range::Fractions);
     let mut are_colored = true;
+    let mut normals = Normals::default();
     let mut has_content = false;
     for (line, content) in lines(bytes) {
         has_content |= !content.is_empty() && !content.starts_with(b"#");
         let mut words = fields(content);
-        if words.next() != Some(b"v") {
-            continue;
+        match words.next() {
+            Some(b"v") => {}
+            Some(b"vn") => {
+                normals.add(words);
+                continue;
+            }
+            Some(b"f") => {
+                normals.check(words);
+                continue;
+            }
+            _ => continue,
         }
         let mut point = [0.0; 3];
         for x in &mut point {
@@ -52,8 +62,44 @@ pub(super) fn read(bytes: &[u8]) -> Result<PointCloud, FormatError> {
     if points.is_empty() && has_content {
         return Err(FormatError::line(1, "the file has no vertices (lines that start with `v`)"));
     }
-    let colors = if are_colored { colors.finish() } else { None };
-    Ok(PointCloud { colors, ..PointCloud::new(PointBuf::F64(points))? })
+    let normals = normals.finish(points.len());
+    let cloud = PointCloud::new(PointBuf::F64(points))?;
+    let cloud = if are_colored { cloud.colored(colors) } else { cloud };
+    Ok(PointCloud { normals, ..cloud })
+}
+
+/// The normals of a file. Its faces may combine any with any vertex, but where each vertex has its own,
+/// as scans do, they are in the same order.
+#[derive(Default)]
+struct Normals {
+    all: Vec<[f32; 3]>,
+    /// Whether something else was found.
+    are_others: bool,
+}
+
+impl Normals {
+    /// Adds the components of a normal.
+    fn add<'a>(&mut self, words: impl Iterator<Item = &'a [u8]>) {
+        let numbers: Vec<f64> = words.filter_map(|word| std::str::from_utf8(word).ok()?.parse().ok()).collect();
+        let length = numbers.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let is_known = numbers.len() >= 3 && length > 0.0 && length.is_finite();
+        self.all.push(if is_known { [0, 1, 2].map(|axis| (numbers[axis] / length) as f32) } else { [0.0; 3] });
+    }
+
+    /// Checks that the corners of a face have the normals with the numbers of their vertices.
+    fn check<'a>(&mut self, words: impl Iterator<Item = &'a [u8]>) {
+        for word in words {
+            let mut indices = word.split(|&b| b == b'/');
+            let (vertex, normal) = (indices.next(), indices.nth(1));
+            self.are_others |= normal.is_some() && normal != vertex;
+        }
+    }
+
+    /// Returns the normals if there is one for each of the points.
+    fn finish(self, points: usize) -> Option<Vec<[f32; 3]>> {
+        let are_known = !self.are_others && self.all.len() == points && self.all.iter().any(|n| *n != [0.0; 3]);
+        are_known.then_some(self.all)
+    }
 }
 
 pub(super) fn write_points<const D: usize>(mut to: impl Write, points: Points<'_, D>) -> io::Result<()> {

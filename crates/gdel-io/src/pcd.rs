@@ -98,6 +98,8 @@ struct Header {
     fields: Vec<Field>,
     points: usize,
     encoding: Encoding,
+    /// The position of the sensor, if the file gives one that means something.
+    sensor: Option<[f64; 3]>,
     /// Where the data starts: the byte, and the number of the line.
     offset: usize,
     line: usize,
@@ -108,6 +110,7 @@ impl Header {
         let mut names: Vec<&[u8]> = Vec::new();
         let [mut sizes, mut kinds, mut counts] = [const { Vec::<&[u8]>::new() }; 3];
         let [mut width, mut height, mut points] = [None; 3];
+        let mut viewpoint = None;
         let mut rest = without_mark(bytes);
         for line in 1.. {
             if rest.is_empty() {
@@ -153,9 +156,13 @@ impl Header {
                     let fields =
                         declare(&names, &sizes, &kinds, &counts).map_err(|what| FormatError::line(line, what))?;
                     let offset = bytes.len() - rest.len();
-                    return Ok(Header { fields, points, encoding, offset, line: line + 1 });
+                    // All programs write the origin, also for clouds of many scans; a grid is one scan.
+                    let is_grid = height.is_some_and(|height| height > 1);
+                    let sensor = viewpoint.filter(|&at| is_grid || at != [0.0; 3]);
+                    return Ok(Header { fields, points, encoding, sensor, offset, line: line + 1 });
                 }
-                b"VERSION" | b"VIEWPOINT" => {}
+                b"VERSION" => {}
+                b"VIEWPOINT" => viewpoint = position(words),
                 comment if comment.starts_with(b"#") => {}
                 other => {
                     return Err(FormatError::line(line, format!("{} is not a keyword of a PCD header", quote(other))));
@@ -192,6 +199,12 @@ impl Header {
     fn is_single(&self) -> bool {
         self.fields.iter().filter(|f| f.is_axis.is_some()).all(|f| f.scalar.is_single())
     }
+}
+
+/// Returns the position that a viewpoint begins with.
+fn position<'a>(words: impl Iterator<Item = &'a [u8]>) -> Option<[f64; 3]> {
+    let numbers: Vec<f64> = words.take(3).filter_map(|word| std::str::from_utf8(word).ok()?.parse().ok()).collect();
+    numbers.try_into().ok().filter(|position: &[f64; 3]| position.iter().all(|x| x.is_finite()))
 }
 
 fn integer(word: &[u8]) -> Option<usize> {
@@ -272,7 +285,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<PointCloud, FormatError> {
     let read = all.len();
     let points: Vec<_> = all.into_iter().filter(has_return).collect();
     let no_return = read - points.len();
-    Ok(PointCloud { no_return, colors: colors.finish(), ..PointCloud::new(narrow(points, header.is_single()))? })
+    let cloud = PointCloud::new(narrow(points, header.is_single()))?.colored(colors);
+    Ok(PointCloud { no_return, sensors: Vec::from_iter(header.sensor), ..cloud })
 }
 
 /// Returns whether a point has coordinates.

@@ -94,7 +94,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<PointCloud, FormatError> {
         let what = format!("{} goes on after all that the header promises", quote(more));
         return Err(data.error(what));
     }
-    Ok(PointCloud { colors: colors.finish(), ..PointCloud::new(narrow(points, is_single))? })
+    Ok(PointCloud::new(narrow(points, is_single))?.colored(colors))
 }
 
 /// The meaning of a vertex property.

@@ -1,6 +1,6 @@
 //! Points as a file gives them.
 
-use crate::{FormatError, PointColors};
+use crate::{FormatError, PointColors, colors::Colors};
 use gdel::{Error, Points};
 
 /// Owned points in the precision of their file.
@@ -25,12 +25,9 @@ impl<const D: usize> PointBuf<D> {
 
     /// Keeps the first `E` coordinates of each point; those that a point lacks become 0.
     pub(super) fn resize<const E: usize>(self) -> PointBuf<E> {
-        fn resize<T: Copy + Default, const D: usize, const E: usize>(points: Vec<[T; D]>) -> Vec<[T; E]> {
-            points.into_iter().map(|p| std::array::from_fn(|k| p.get(k).copied().unwrap_or_default())).collect()
-        }
         match self {
-            PointBuf::F32(points) => PointBuf::F32(resize(points)),
-            PointBuf::F64(points) => PointBuf::F64(resize(points)),
+            PointBuf::F32(points) => PointBuf::F32(points.into_iter().map(resized).collect()),
+            PointBuf::F64(points) => PointBuf::F64(points.into_iter().map(resized).collect()),
         }
     }
 }
@@ -62,19 +59,38 @@ pub struct PointCloud<const D: usize = 3> {
     /// The points' colours, or values that can stand for them; `None` if the file has none, or if
     /// all points have the same.
     pub colors: Option<PointColors>,
+    /// The points' normals, of length 1, or zero where one is unknown; `None` if the file has none.
+    pub normals: Option<Vec<[f32; D]>>,
+    /// The positions of the sensor: one for each point, or one for all; empty if the file has none.
+    pub sensors: Vec<[f64; D]>,
 }
 
 impl<const D: usize> PointCloud<D> {
     /// Creates the cloud of all of `points`.
     pub(super) fn new(points: PointBuf<D>) -> Result<Self, FormatError> {
         match Points::from(&points).validate() {
-            Ok(()) => Ok(PointCloud { points, no_return: 0, ignored_columns: 0, dropped_z: false, colors: None }),
+            Ok(()) => Ok(PointCloud {
+                points,
+                no_return: 0,
+                ignored_columns: 0,
+                dropped_z: false,
+                colors: None,
+                normals: None,
+                sensors: Vec::new(),
+            }),
             Err(Error::NotFinite { index, axis, value }) => Err(FormatError::point(
                 index,
                 format!("the {axis} coordinate is {value}, which is not a finite number"),
             )),
             Err(other) => Err(FormatError::point(0, other.to_string())),
         }
+    }
+
+    /// Adds the colours and normals of the points.
+    pub(super) fn colored(self, mut colors: Colors) -> Self {
+        let found = colors.finish();
+        let normals = colors.take_normals().map(|normals| normals.into_iter().map(resized).collect());
+        PointCloud { colors: found, normals, ..self }
     }
 
     /// Keeps the first `E` coordinates of each point.
@@ -86,6 +102,8 @@ impl<const D: usize> PointCloud<D> {
             ignored_columns: self.ignored_columns,
             dropped_z: self.dropped_z || loses_z,
             colors: self.colors,
+            normals: self.normals.map(|normals| normals.into_iter().map(resized).collect()),
+            sensors: self.sensors.into_iter().map(resized).collect(),
         }
     }
 }
@@ -94,6 +112,11 @@ impl<'a, const D: usize> From<&'a PointCloud<D>> for Points<'a, D> {
     fn from(cloud: &'a PointCloud<D>) -> Self {
         (&cloud.points).into()
     }
+}
+
+/// Returns the first `E` coordinates; those that are lacking are 0.
+fn resized<T: Copy + Default, const D: usize, const E: usize>(p: [T; D]) -> [T; E] {
+    std::array::from_fn(|k| p.get(k).copied().unwrap_or_default())
 }
 
 /// Collects points as `f64` and hands them out as `f32` when their file's type fits that exactly.

@@ -293,8 +293,11 @@ impl<'w, const D: usize> Table<'w, D> {
         let known = self.dropped.map_or(D, |column| column + 1);
         let ignored_columns = if self.is_named { 0 } else { fields.saturating_sub(known) };
         let cloud = PointCloud::new(PointBuf::F64(self.points))?;
-        let colors = self.tints.and_then(|tints| tints.colors.finish());
-        Ok((PointCloud { dropped_z: self.dropped_z, ignored_columns, colors, ..cloud }, self.values))
+        let cloud = match self.tints {
+            Some(tints) => cloud.colored(tints.colors),
+            None => cloud,
+        };
+        Ok((PointCloud { dropped_z: self.dropped_z, ignored_columns, ..cloud }, self.values))
     }
 }
 

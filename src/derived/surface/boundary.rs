@@ -155,7 +155,7 @@ impl<const D: usize> Boundary<D> {
     }
 
     /// Numbers the vertices, one for each cycle of facets around a point.
-    fn split_vertices(&mut self) {
+    pub(super) fn split_vertices(&mut self) {
         let mut cycles = DisjointSets::new(D * self.facets.len());
         for (f, mates) in self.mates.iter().enumerate() {
             for (i, &mate) in mates.iter().enumerate().filter(|&(_, &mate)| mate != NONE) {

@@ -32,7 +32,7 @@ pub(super) struct Cleaned<const D: usize> {
 }
 
 impl<const D: usize> Cleaned<D> {
-    pub(super) fn new<const N: usize>(prepared: &Prepared<D, N>, stars: &Csr, options: &SurfaceOptions) -> Self
+    pub(super) fn new<const N: usize>(prepared: &Prepared<D, N>, stars: &Csr, options: &SurfaceOptions<'_, D>) -> Self
     where
         Euclidean: Geometry<D, N>,
     {

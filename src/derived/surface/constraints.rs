@@ -6,11 +6,14 @@
 //! eigencrust (Kolluri, Shewchuk and O'Brien 2004) with an eigenvector. Here the constraints are taken
 //! by falling strength, and those that contradict stronger ones are left out: a maximum spanning forest
 //! of a signed graph, which has no parameter and one answer.
+//!
+//! Normals and sensors decide the sides of poles directly, and are constraints for those of other vertices.
 
 use super::{
     super::complex::Complex,
+    evidence::Hints,
     parity::ParitySets,
-    poles::{OUTSIDE, Poles, Spheres},
+    poles::{BENEATH, OUTSIDE, Poles, Spheres},
 };
 use crate::{
     index::NONE,
@@ -42,8 +45,10 @@ pub(super) fn votes<const D: usize, const N: usize>(
     spheres: &Spheres<D>,
     stars: &Csr,
     poles: &[Poles],
+    hints: &Hints<D>,
 ) -> Vec<i8> {
     let mut constraints = Constraints::new(complex, spheres, stars, poles);
+    constraints.known = known(complex, spheres, poles, hints);
     // The outside has number 0, and so stands for its set.
     let mut sets = ParitySets::new(complex.simplices.len() + 1);
     let mut strongest = u16::MAX;
@@ -57,16 +62,14 @@ pub(super) fn votes<const D: usize, const N: usize>(
         strongest = weakest.saturating_sub(1);
     }
     let mut votes = vec![0; complex.simplices.len()];
-    for pole in poles.iter().flat_map(|poles| [poles.first, poles.second]).filter(|&pole| pole < OUTSIDE) {
-        let vote = match sets.root(number(pole)) {
-            (0, is_inside) => {
-                if is_inside {
-                    1
-                } else {
-                    -1
-                }
-            }
-            _ => 0,
+    let each = (0..).zip(poles).flat_map(|(v, poles)| [(v, poles.first), (v, poles.second)]);
+    for (v, pole) in each.filter(|&(_, pole)| pole < BENEATH) {
+        let known = hints.cosine(v, complex.point(v), pole, spheres).map(|cosine| cosine < 0.0);
+        let found = || Some(sets.root(number(pole))).filter(|&(root, _)| root == 0).map(|(_, is_inside)| is_inside);
+        let vote = match known.or_else(found) {
+            Some(true) => 1,
+            Some(false) => -1,
+            None => 0,
         };
         let sum: &mut i8 = &mut votes[pole as usize];
         *sum = (*sum + vote).clamp(-MAX_VOTES, MAX_VOTES);
@@ -76,7 +79,24 @@ pub(super) fn votes<const D: usize, const N: usize>(
 
 /// Returns the number of a pole in the sets.
 fn number(pole: u32) -> u32 {
-    if pole == OUTSIDE { 0 } else { pole + 1 }
+    if pole >= BENEATH { 0 } else { pole + 1 }
+}
+
+/// Returns the constraints between the outside and the poles whose sides the evidence knows, with their
+/// strengths.
+fn known<const D: usize, const N: usize>(
+    complex: &Complex<'_, D, N>,
+    spheres: &Spheres<D>,
+    poles: &[Poles],
+    hints: &Hints<D>,
+) -> Vec<(u16, Constraint)> {
+    let each = (0..).zip(poles).flat_map(|(v, poles)| [(v, poles.first), (v, poles.second)]);
+    let known = each.filter_map(|(v, pole)| {
+        let cosine = hints.cosine(v, complex.point(v), pole, spheres)?;
+        let constraint = Constraint { poles: [0, number(pole)], are_opposite: cosine < 0.0 };
+        Some((strength(2.0 * cosine.abs()), constraint))
+    });
+    known.collect()
 }
 
 /// Two poles, by their numbers, on the same side or on opposite ones.
@@ -93,6 +113,8 @@ struct Constraints<'a> {
     /// Between the two poles of each vertex.
     opposite: Vec<u16>,
     same: Vec<Edges>,
+    /// Those by evidence.
+    known: Vec<(u16, Constraint)>,
 }
 
 /// Edges of the mesh, with the strengths of the constraints between the first poles of both ends, the
@@ -111,13 +133,13 @@ impl<'a> Constraints<'a> {
         poles: &'a [Poles],
     ) -> Self {
         let opposite = |poles: &Poles| match (poles.first, poles.second) {
-            (_, NONE) => 0,
-            (OUTSIDE, _) => strength(NORMAL_SHARE * (1.0 - poles.cosine)),
+            (NONE, _) | (_, NONE) => 0,
+            (OUTSIDE | BENEATH, _) => strength(NORMAL_SHARE * (1.0 - poles.cosine)),
             _ => strength(1.0 - poles.cosine),
         };
         let same = |i: u32, j: u32| {
             // Missing ones, too, have higher numbers than the simplices.
-            if i == j || i.max(j) >= OUTSIDE { 0 } else { strength(1.0 + spheres.intersection(i, j)) }
+            if i == j || i.max(j) >= BENEATH { 0 } else { strength(1.0 + spheres.intersection(i, j)) }
         };
         let edges = parallel::map_grains(Threads::All, poles.len(), GRAIN, |range| {
             let mut edges = Edges::default();
@@ -136,7 +158,7 @@ impl<'a> Constraints<'a> {
             }
             edges
         });
-        Constraints { poles, opposite: poles.iter().map(opposite).collect(), same: edges }
+        Constraints { poles, opposite: poles.iter().map(opposite).collect(), same: edges, known: Vec::new() }
     }
 
     /// Returns the constraints with strengths from `low` to `high` between poles of different sets,
@@ -153,7 +175,14 @@ impl<'a> Constraints<'a> {
             }
         };
         for (poles, &strength) in self.poles.iter().zip(&self.opposite) {
-            take(&mut found, strength, [poles.first, poles.second], true);
+            // What is beneath is not outside.
+            take(&mut found, strength, [poles.first, poles.second], poles.first != BENEATH);
+        }
+        for &(strength, constraint) in &self.known {
+            if (low..=high).contains(&strength) {
+                found.0.push(u32::from(u16::MAX - strength));
+                found.1.push(constraint);
+            }
         }
         let parts = parallel::map_mut(Threads::All, &mut self.same, |_, edges| {
             let mut found = (Vec::new(), Vec::new());

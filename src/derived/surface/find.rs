@@ -5,15 +5,18 @@ use super::{
         complex::{Complex, Coordinates},
         sorted::Sorted,
     },
-    Side, Surface, SurfaceOptions,
+    Cleaning, Side, Surface, SurfaceOptions, Topology,
+    beyond::{Extended, INFINITY},
     boundary::{self, Boundary},
     capacity, constraints, cut,
+    evidence::{Evidence, Hints},
+    open::{self, Gaps, Open, Unseen},
     poles::{Poles, Spheres},
     solid,
 };
 use crate::{
     error::Error,
-    geometry::{Euclidean, Geometry, vector},
+    geometry::{Euclidean, Geometry, facet, vector},
     index::NONE,
     mesh::Csr,
 };
@@ -67,21 +70,14 @@ where
     pub(super) fn surface(
         &self,
         stars: &Csr,
-        options: &SurfaceOptions,
+        options: &SurfaceOptions<'_, D>,
         position: &dyn Fn(u32) -> [f64; D],
     ) -> Surface<D, N> {
         let complex = &self.mesh.complex;
-        let (is_inside, dropped) = self.inside(stars, options);
-        let boundary = Boundary::new(complex, &self.mesh.points, &is_inside);
-        let mut vertices: Vec<[f64; D]> = boundary.sources.iter().map(|&point| position(point)).collect();
-        for &[a, b] in &boundary.middles {
-            let halves = [a, b].map(|v| vector::times(0.5, vertices[v as usize]));
-            vertices.push(vector::plus(halves[0], halves[1]));
-        }
-        let components = boundary.components();
-        let mut sources = boundary.sources;
-        let sides = self.sides(&is_inside, &sources);
-        sources.resize(vertices.len(), NONE);
+        let hints = Hints::new(complex.points(), &self.mesh.points, self.scale, options);
+        let (is_inside, dropped) = self.inside(stars, options, &hints);
+        let Shell { boundary, vertices, evidence } = self.shell(&is_inside, &hints, options.open, position);
+        let sides = self.sides(&is_inside, &boundary.sources);
         // The power of the scale may underflow.
         let unscaled = |measure: f64, power: usize| (0..power).fold(measure, |measure, _| measure / self.scale);
         let inside = || (0..is_inside.len()).filter(|&t| is_inside[t]);
@@ -90,32 +86,61 @@ where
             sides,
             volume: unscaled(solid::volume(complex, inside()), D),
             area: unscaled(boundary::area(&boundary.facets, &vertices, self.scale), D - 1),
+            topology: Topology::new(&boundary, vertices.len()),
             vertices,
-            components,
-            sources,
+            sources: boundary.sources,
             facets: boundary.facets,
-            dropped,
-            isolated: 0,
-            noise: 0.0,
+            cleaning: Cleaning { dropped, isolated: 0, noise: 0.0 },
+            evidence,
             moved: None,
         }
     }
 
+    /// Returns the boundary of the solid, and what its side is known by; on request without the facets that
+    /// close gaps, if those are many.
+    fn shell(&self, is_inside: &[bool], hints: &Hints<D>, open: Open, position: &dyn Fn(u32) -> [f64; D]) -> Shell<D> {
+        let Sorted { complex, points: names, .. } = &self.mesh;
+        let boundary = Boundary::new(complex, names, is_inside);
+        let mut shell = Shell::new(boundary, hints.kind().unwrap_or(Evidence::Hull), position);
+        let find = |shell: &Shell<D>, beyond: &Unseen<D>| {
+            let scaled: Vec<[f64; D]> = shell.vertices.iter().map(|&p| vector::times(self.scale, p)).collect();
+            Gaps::find(&shell.boundary, &scaled, beyond)
+        };
+        if hints.kind().is_none() {
+            let gaps = find(&shell, &Unseen::default());
+            if gaps.is_open {
+                shell.evidence = Evidence::Guess;
+                if open == Open::Auto {
+                    open::remove(&mut shell.boundary, &mut shell.vertices, &gaps.is_gap);
+                }
+            }
+        } else if open == Open::Auto && find(&shell, &Unseen::new(&self.mesh, is_inside, hints)).is_open {
+            let Extended { complex, names, is_inside } = Extended::new(complex, names, is_inside, hints);
+            shell = Shell::new(Boundary::new(&complex, &names, &is_inside), shell.evidence, position);
+            shell.remove_infinite();
+            let gaps = find(&shell, &Unseen::default());
+            open::remove(&mut shell.boundary, &mut shell.vertices, &gaps.is_gap);
+        }
+        shell
+    }
+
     /// Returns whether each simplex is inside, and how many pieces and cavities were dropped.
-    fn inside(&self, stars: &Csr, options: &SurfaceOptions) -> (Vec<bool>, [usize; 2]) {
+    fn inside(&self, stars: &Csr, options: &SurfaceOptions<'_, D>, hints: &Hints<D>) -> (Vec<bool>, [usize; 2]) {
         let complex = &self.mesh.complex;
         let spheres = Spheres::new(complex);
-        let poles = Poles::of_all(&self.mesh, &spheres, stars);
-        let votes = constraints::votes(complex, &spheres, stars, &poles);
+        let poles = Poles::of_all(&self.mesh, &spheres, stars, hints);
+        let votes = constraints::votes(complex, &spheres, stars, &poles, hints);
         let costs = capacity::costs(complex, &spheres);
         drop((spheres, poles));
+        let evident = hints.votes(complex, stars);
+        let hull_excess = |t: usize, k: usize| hints.hull_excess(complex, facet(&complex.simplices[t], k), costs[t][k]);
         let excess: Vec<i32> = votes
             .iter()
-            .zip(&costs)
             .enumerate()
-            .map(|(t, (&votes, costs))| {
-                let hull = (0..N).filter(|&k| complex.across(t, k).is_none()).map(|k| i32::from(costs[k]));
-                capacity::UNIT * i32::from(votes) - hull.sum::<i32>()
+            .map(|(t, &votes)| {
+                let votes = i32::from(votes) + evident.get(t).copied().unwrap_or(0);
+                let hull = (0..N).filter(|&k| complex.across(t, k).is_none()).map(|k| hull_excess(t, k));
+                capacity::UNIT * votes + hull.sum::<i32>()
             })
             .collect();
         let mut is_inside = cut::inside(complex, &costs, &excess);
@@ -125,17 +150,46 @@ where
 
     /// Returns where each point lies.
     fn sides(&self, is_inside: &[bool], vertices: &[u32]) -> Vec<Side> {
-        let Sorted { complex, points, .. } = &self.mesh;
+        let Sorted { complex, points: names, .. } = &self.mesh;
         let mut sides = vec![Side::Outside; self.count];
         for (simplex, _) in complex.simplices.iter().zip(is_inside).filter(|&(_, &is_inside)| is_inside) {
-            simplex.iter().for_each(|&v| sides[points[v as usize] as usize] = Side::Inside);
+            simplex.iter().for_each(|&v| sides[names[v as usize] as usize] = Side::Inside);
         }
-        vertices.iter().for_each(|&point| sides[point as usize] = Side::On);
-        for (&point, &vertex) in points.iter().zip(&*complex.duplicate_of) {
+        let points = vertices.iter().filter(|&&point| point != NONE);
+        points.for_each(|&point| sides[point as usize] = Side::On);
+        for (&point, &vertex) in names.iter().zip(&*complex.duplicate_of) {
             if vertex != NONE {
-                sides[point as usize] = sides[points[vertex as usize] as usize];
+                sides[point as usize] = sides[names[vertex as usize] as usize];
             }
         }
         sides
+    }
+}
+
+/// The facets between inside and outside with the positions of their vertices.
+struct Shell<const D: usize> {
+    /// With one source for each vertex: [`NONE`] for the middle of an edge.
+    boundary: Boundary<D>,
+    vertices: Vec<[f64; D]>,
+    evidence: Evidence,
+}
+
+impl<const D: usize> Shell<D> {
+    fn new(mut boundary: Boundary<D>, evidence: Evidence, position: &dyn Fn(u32) -> [f64; D]) -> Self {
+        let finite = |point: u32| if point == INFINITY { [f64::INFINITY; D] } else { position(point) };
+        let mut vertices: Vec<[f64; D]> = boundary.sources.iter().map(|&point| finite(point)).collect();
+        for &[a, b] in &boundary.middles {
+            let halves = [a, b].map(|v| vector::times(0.5, vertices[v as usize]));
+            vertices.push(vector::plus(halves[0], halves[1]));
+        }
+        boundary.sources.resize(vertices.len(), NONE);
+        Shell { boundary, vertices, evidence }
+    }
+
+    /// Removes the facets that reach to infinity.
+    fn remove_infinite(&mut self) {
+        let is_infinite = |v: &u32| !self.vertices[*v as usize][0].is_finite();
+        let is_removed: Vec<bool> = self.boundary.facets.iter().map(|facet| facet.iter().any(is_infinite)).collect();
+        open::remove(&mut self.boundary, &mut self.vertices, &is_removed);
     }
 }

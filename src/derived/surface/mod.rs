@@ -3,22 +3,27 @@
 //! The solid consists of simplices of the Delaunay triangulation, so that its boundary is closed,
 //! oriented and does not intersect itself. Which simplices belong to it is found in these steps:
 //!
-//! 0. `clean`: isolated points are dropped, and where there is noise, points are moved onto local
+//! 0. `evidence`: what normals, sensors and the up direction say;
+//!    `clean`: isolated points are dropped, and where there is noise, points are moved onto local
 //!    quadrics (`outliers`, `quadrics`, `neighbors`), and triangulated again;
 //! 1. `poles`: the circumspheres, and the two farthest circumcentres around each vertex;
 //! 2. `constraints`, `parity`: which poles lie inside and which outside;
 //! 3. `capacity`: what it costs that a facet belongs to the surface;
 //! 4. `cut`: the least surface that separates the poles inside from those outside;
 //! 5. `solid`: without specks and bubbles;
-//! 6. `boundary`: its facets as a manifold.
+//! 6. `boundary`: its facets as a manifold;
+//! 7. `open`: without those that only close gaps, on request (`beyond`).
 
+mod beyond;
 mod boundary;
 mod capacity;
 mod clean;
 mod constraints;
 mod cut;
+mod evidence;
 mod find;
 mod neighbors;
+mod open;
 mod outliers;
 mod parity;
 mod poles;
@@ -37,21 +42,27 @@ use crate::{
     mesh::Mesh,
     options::Options,
 };
+use boundary::Boundary;
 use clean::Cleaned;
 use find::Prepared;
+
+pub use evidence::Evidence;
+pub use open::Open;
 
 /// How [`Surface::new`] finds a surface.
 ///
 /// # Examples
 ///
 /// ```
-/// let mut options = gdel::SurfaceOptions::default();
+/// let normals = [[0.0, 0.0, 1.0f32]; 500];
+/// let mut options: gdel::SurfaceOptions = Default::default();
 /// // All pieces count, however small they are.
 /// options.min_part = 0.0;
+/// options.normals = Some((&normals).into());
 /// ```
 #[derive(Debug, Clone)]
 #[non_exhaustive]
-pub struct SurfaceOptions {
+pub struct SurfaceOptions<'a, const D: usize = 3> {
     /// Pieces of the solid and cavities in it are dropped if their volume is less than this share of
     /// the largest piece's; by default 0.01.
     pub min_part: f64,
@@ -62,11 +73,28 @@ pub struct SurfaceOptions {
     /// How often all points are moved onto quadrics through their neighbours before the surface is
     /// found. By default twice if there is noise, which is estimated, and never else.
     pub smooth: Option<u32>,
+    /// The normals of the points, which point outwards; zero where one is unknown. Their lengths do not
+    /// matter. By default none: the surface is found without.
+    pub normals: Option<Points<'a, D>>,
+    /// The position of the sensor for each point, or one for all. What a point was seen through is outside.
+    pub sensors: Option<Points<'a, D>>,
+    /// The direction that is up, if what is below all points is inside, as in airborne scans of the ground.
+    pub up: Option<[f64; D]>,
+    /// Whether facets that only close gaps are left out; by default never.
+    pub open: Open,
 }
 
-impl Default for SurfaceOptions {
+impl<const D: usize> Default for SurfaceOptions<'_, D> {
     fn default() -> Self {
-        SurfaceOptions { min_part: 0.01, drop_isolated: true, smooth: None }
+        SurfaceOptions {
+            min_part: 0.01,
+            drop_isolated: true,
+            smooth: None,
+            normals: None,
+            sensors: None,
+            up: None,
+            open: Open::Never,
+        }
     }
 }
 
@@ -87,7 +115,7 @@ impl Default for SurfaceOptions {
 pub enum Side {
     /// It is a vertex of the surface.
     On,
-    /// It lies in the solid, but not on the surface.
+    /// It lies in the solid, but not on the surface. If the surface is open, it may be at a gap.
     Inside,
     /// It lies outside the solid, or was dropped.
     Outside,
@@ -101,6 +129,9 @@ pub enum Side {
 /// between the farthest circumcentres around the vertices inside and outside. So the surface is closed,
 /// oriented and does not intersect itself. Where sheets of it touch at a vertex or an edge, each has
 /// its own copy of the vertices, so that every edge belongs to exactly two triangles.
+///
+/// Normals, sensors and the up direction, as far as they are known, decide which side is inside. On
+/// request, facets that only close gaps are left out ([`Open::Auto`]); the surface then has a boundary.
 ///
 /// The surface depends on the points and the options alone: not on threads or, where the
 /// triangulation does not, on the order of the points.
@@ -138,12 +169,39 @@ pub struct Surface<const D: usize = 3, const N: usize = 4> {
     sides: Vec<Side>,
     volume: f64,
     area: f64,
-    components: usize,
+    topology: Topology,
+    cleaning: Cleaning,
+    evidence: Evidence,
+    /// All points, if they were moved.
+    moved: Option<Vec<[f64; D]>>,
+}
+
+/// What was dropped before and after the surface was found, and the noise.
+#[derive(Debug, Clone, Copy)]
+struct Cleaning {
     dropped: [usize; 2],
     isolated: usize,
     noise: f64,
-    /// All points, if they were moved.
-    moved: Option<Vec<[f64; D]>>,
+}
+
+/// How a surface hangs together.
+#[derive(Debug, Clone, Copy)]
+struct Topology {
+    components: usize,
+    genus: usize,
+    boundaries: usize,
+}
+
+impl Topology {
+    fn new<const D: usize>(boundary: &Boundary<D>, vertices: usize) -> Self {
+        let components = boundary.components();
+        let [boundaries, rim] = open::rims(boundary, vertices);
+        // Euler's characteristic; every edge belongs to two triangles, those of the rim to one.
+        let facets = boundary.facets.len();
+        let characteristic = (vertices + facets) as i64 - (3 * facets + rim) as i64 / 2;
+        let doubled = 2 * components as i64 - boundaries as i64 - characteristic;
+        Topology { components, genus: if D == 3 { (doubled / 2) as usize } else { 0 }, boundaries }
+    }
 }
 
 /// What differs between the dimensions in surfaces.
@@ -189,23 +247,25 @@ where
     ///
     /// [`Error::PointCount`], [`Error::NotFinite`] or [`Error::BrokenMesh`] as for
     /// [`Locator::new`](crate::Locator::new); [`Error::TooManySimplices`] beyond 2³⁰ simplices;
-    /// [`Error::BadOption`].
+    /// [`Error::ValueCount`] if there is not one normal or sensor per point; [`Error::BadOption`].
     pub fn new<'a>(
         mesh: &'a impl Mesh<D, N>,
         points: impl Into<Points<'a, D>>,
-        options: &SurfaceOptions,
+        options: &SurfaceOptions<'_, D>,
     ) -> Result<Self, Error> {
         if !(0.0..=1.0).contains(&options.min_part) {
             return Err(Error::BadOption { option: "min_part", range: "a number from 0 to 1" });
         }
         let points = points.into();
+        evidence::check(options, points.len())?;
         let given = Complex::new(mesh, points)?;
         let prepared = Prepared::new(&given)?;
         let stars = prepared.stars();
         let cleaned = Cleaned::new(&prepared, &stars, options);
         if !cleaned.is_changed() {
             let surface = prepared.surface(&stars, options, &|point| given.point(point));
-            return Ok(Surface { noise: cleaned.noise, ..surface });
+            let cleaning = Cleaning { noise: cleaned.noise, ..surface.cleaning };
+            return Ok(Surface { cleaning, ..surface });
         }
         drop((prepared, stars));
         let mut moved: Vec<[f64; D]> = points.iter().collect();
@@ -222,7 +282,8 @@ where
             moved[i] = moved[vertex as usize];
         }
         let moved = (cleaned.passes > 0).then_some(moved);
-        Ok(Surface { noise: cleaned.noise, isolated: cleaned.isolated, moved, ..surface })
+        let cleaning = Cleaning { noise: cleaned.noise, isolated: cleaned.isolated, ..surface.cleaning };
+        Ok(Surface { cleaning, moved, ..surface })
     }
 }
 
@@ -256,7 +317,8 @@ impl<const D: usize, const N: usize> Surface<D, N> {
         &self.sides
     }
 
-    /// Returns the volume of the solid, in 2D the area.
+    /// Returns the volume of the solid, in 2D the area. That of an open surface is closed by the facets that
+    /// were left out.
     pub fn volume(&self) -> f64 {
         self.volume
     }
@@ -268,33 +330,42 @@ impl<const D: usize, const N: usize> Surface<D, N> {
 
     /// Returns the number of connected surfaces, or curves in 2D. A ball with a cavity has two.
     pub fn components(&self) -> usize {
-        self.components
+        self.topology.components
     }
 
     /// Returns the number of handles of all surfaces together: 0 for a sphere, 1 for a torus. It is 0 in
     /// 2D.
     pub fn genus(&self) -> usize {
-        // Euler's characteristic; every edge belongs to two triangles.
-        let doubled = 2 * (self.vertices.len() + self.facets.len()) as i64 - 3 * self.facets.len() as i64;
-        if D == 3 { (self.components as i64 - doubled / 4) as usize } else { 0 }
+        self.topology.genus
+    }
+
+    /// Returns the number of closed curves that bound the surface, and in 2D that of curves with two ends:
+    /// 0 unless it is [open](SurfaceOptions::open).
+    pub fn boundaries(&self) -> usize {
+        self.topology.boundaries
+    }
+
+    /// Returns how it is known which side is inside.
+    pub fn evidence(&self) -> Evidence {
+        self.evidence
     }
 
     /// Returns how many pieces of the solid, and how many cavities, were dropped because they were
     /// smaller than [`min_part`](SurfaceOptions::min_part).
     pub fn dropped(&self) -> [usize; 2] {
-        self.dropped
+        self.cleaning.dropped
     }
 
     /// Returns how many points were dropped because they are [isolated](SurfaceOptions::drop_isolated).
     pub fn isolated(&self) -> usize {
-        self.isolated
+        self.cleaning.isolated
     }
 
     /// Returns the estimate of the noise: the median distance of the points from quadrics through their
     /// neighbours, in units of the distance between points. It is 0 where it was not needed, as for few
     /// points.
     pub fn noise(&self) -> f64 {
-        self.noise
+        self.cleaning.noise
     }
 
     /// Returns all points as they were [moved](SurfaceOptions::smooth), to which
@@ -305,7 +376,7 @@ impl<const D: usize, const N: usize> Surface<D, N> {
 
     /// Returns whether every edge belongs to exactly two triangles, in opposite directions, and in 2D
     /// every vertex to one edge that ends there and one that starts there. Counts them; by
-    /// construction, the result is `true`.
+    /// construction, the result is `true` unless the surface has [boundaries](Self::boundaries).
     pub fn is_closed(&self) -> bool {
         boundary::is_closed(&self.facets)
     }

@@ -5,7 +5,10 @@
 //! the cell is long and thin and perpendicular to the surface, so that its farthest corners on either
 //! side, the *poles*, lie inside and outside of the solid.
 
-use super::super::{complex::Complex, sorted::Sorted};
+use super::{
+    super::{complex::Complex, sorted::Sorted},
+    evidence::Hints,
+};
 use crate::{
     geometry::{Euclidean, Geometry, circumsphere, facet, vector},
     index::NONE,
@@ -52,7 +55,8 @@ impl<const D: usize> Spheres<D> {
 /// The two poles of a vertex, which lie on different sides of the surface.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Poles {
-    /// The simplex with the farthest circumcentre; [`OUTSIDE`] for vertices of the hull.
+    /// The simplex with the farthest circumcentre; for vertices of the hull [`OUTSIDE`], or [`BENEATH`]
+    /// or [`NONE`] if the evidence says so.
     pub(super) first: u32,
     /// The simplex with the farthest circumcentre in the opposite half-space; [`NONE`] if there
     /// is none.
@@ -65,6 +69,9 @@ pub(super) struct Poles {
 /// Stands for what is outside the hull as a pole.
 pub(super) const OUTSIDE: u32 = NONE - 1;
 
+/// Stands for what is beyond the hull, but known to be inside. Simplices have lower numbers.
+pub(super) const BENEATH: u32 = NONE - 2;
+
 impl Poles {
     const UNKNOWN: Poles = Poles { first: NONE, second: NONE, cosine: 0.0 };
 
@@ -73,6 +80,7 @@ impl Poles {
         mesh: &Sorted<D, N>,
         spheres: &Spheres<D>,
         stars: &Csr,
+        hints: &Hints<D>,
     ) -> Vec<Poles>
     where
         Euclidean: Geometry<D, N>,
@@ -82,19 +90,21 @@ impl Poles {
         let mut poles = vec![Poles::UNKNOWN; complex.points().len()];
         parallel::for_chunks(Threads::All, &mut poles, |start, chunk| {
             for (poles, v) in chunk.iter_mut().zip(start as u32..) {
-                *poles = Poles::of(complex, spheres, stars, v, normals[v as usize]);
+                let normal = normals[v as usize];
+                let beyond = (normal != [0.0; D]).then(|| (hints.beyond_vertex(v, normal).pole(), normal));
+                *poles = Poles::of(complex, spheres, stars, v, beyond);
             }
         });
         poles
     }
 
-    /// Returns the poles of a vertex; the normal is zero inside the hull.
+    /// Returns the poles of a vertex; on the hull, the first one and the normal are given.
     fn of<const D: usize, const N: usize>(
         complex: &Complex<'_, D, N>,
         spheres: &Spheres<D>,
         stars: &Csr,
         v: u32,
-        normal: [f64; D],
+        beyond: Option<(u32, [f64; D])>,
     ) -> Self
     where
         Euclidean: Geometry<D, N>,
@@ -111,12 +121,8 @@ impl Poles {
             Some(best) if !is_farther(t, best) => Some(best),
             _ => Some(t),
         };
-        let (first, direction) = if normal != [0.0; D] {
-            (OUTSIDE, normal)
-        } else {
-            let Some(first) = star.iter().copied().fold(None, farthest) else { return Poles::UNKNOWN };
-            (first, to_center(first))
-        };
+        let found = || star.iter().copied().fold(None, farthest).map(|first| (first, to_center(first)));
+        let Some((first, direction)) = beyond.or_else(found) else { return Poles::UNKNOWN };
         let is_opposite = |&t: &u32| vector::dot(to_center(t), direction) < 0.0;
         let second = star.iter().copied().filter(is_opposite).fold(None, farthest);
         let cosine = second.map_or(0.0, |t| {
@@ -132,15 +138,8 @@ fn hull_normals<const D: usize, const N: usize>(complex: &Complex<'_, D, N>) -> 
 where
     Euclidean: Geometry<D, N>,
 {
-    let parts = parallel::map_ranges(Threads::All, complex.simplices.len(), |range| {
-        let facets = range.flat_map(|t| (0..N).filter(move |&k| complex.across(t, k).is_none()).map(move |k| (t, k)));
-        facets.map(|(t, k)| facet(&complex.simplices[t], k)).collect::<Vec<[u32; D]>>()
-    });
-    // Sums of numbers that are rounded depend on their order.
-    let mut facets = parallel::joined(parts);
-    parallel::sort(Threads::All, &mut facets);
     let mut normals = vec![[0.0; D]; complex.points().len()];
-    for facet in facets {
+    for facet in hull_facets(complex) {
         let normal = Euclidean::facet_normal(&facet.map(|v| complex.point(v)));
         for v in facet {
             let sum = &mut normals[v as usize];
@@ -148,4 +147,19 @@ where
         }
     }
     normals
+}
+
+/// Returns the facets of the hull in ascending order.
+fn hull_facets<const D: usize, const N: usize>(complex: &Complex<'_, D, N>) -> Vec<[u32; D]>
+where
+    Euclidean: Geometry<D, N>,
+{
+    let parts = parallel::map_ranges(Threads::All, complex.simplices.len(), |range| {
+        let facets = range.flat_map(|t| (0..N).filter(move |&k| complex.across(t, k).is_none()).map(move |k| (t, k)));
+        facets.map(|(t, k)| facet(&complex.simplices[t], k)).collect::<Vec<[u32; D]>>()
+    });
+    // Sums of numbers that are rounded depend on their order.
+    let mut facets = parallel::joined(parts);
+    parallel::sort(Threads::All, &mut facets);
+    facets
 }

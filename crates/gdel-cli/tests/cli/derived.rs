@@ -213,6 +213,38 @@ fn surface_of_the_bunny() {
 }
 
 #[test]
+fn surfaces_of_scans_from_one_side() {
+    let folder = folder();
+    let path = folder.path();
+    let hills: String = (0..2500)
+        .map(|i| [f64::from(i % 50) + 0.3 * (0.7 * f64::from(i)).sin(), f64::from(i / 50)])
+        .map(|[x, y]| format!("{x} {y} {}\n", 3.0 * (x / 6.0).sin() * (y / 7.0).cos()))
+        .collect();
+    fs::write(path.join("hills.xyz"), hills).unwrap();
+    // The side is a guess, and the user is told how to say it.
+    let run = gdel(path, &["surface", "hills.xyz", "-o", "s.stl"]);
+    let (stdout, stderr) = (String::from_utf8(run.stdout).unwrap(), String::from_utf8(run.stderr).unwrap());
+    assert!(run.status.success() && stdout.contains("side by         guess"), "{stdout}");
+    assert!(stderr.starts_with("gdel: hills.xyz: ") && stderr.contains("`--below`"), "{stderr}");
+    assert_eq!(stderr.lines().count(), 1);
+    for (arguments, side, is_closed) in [
+        (&["--below"][..], "below", true),
+        (&["--airborne", "--open", "auto"], "below", false),
+        (&["--sensor", "-5,20,300", "--open", "auto"], "sensors", false),
+    ] {
+        let run = stats(path, &[&["surface", "hills.xyz", "-fo", "s.stl"], arguments].concat());
+        assert_eq!((&run["side_by"], &run["closed"]), (&side.into(), &is_closed.into()), "{run}");
+        assert_eq!(run["boundaries"] == 0, is_closed, "{run}");
+    }
+    for position in ["1", "1,2,x", "1,2,inf", "1,2,3,4"] {
+        let run = gdel(path, &["surface", "hills.xyz", "--sensor", position, "-fo", "s.stl"]);
+        assert_eq!(run.status.code(), Some(2), "{position}");
+    }
+    let run = gdel(path, &["surface", "hills.xyz", "--sensor", "1,2", "-fo", "s.stl"]);
+    assert_eq!(run.status.code(), Some(2));
+}
+
+#[test]
 fn surface_in_all_formats_and_dimensions() {
     let folder = samples();
     let path = folder.path();

@@ -103,7 +103,7 @@ fn decode(bytes: &[u8], start: usize) -> Result<PointCloud, FormatError> {
         let records = bytes[start..].chunks_exact(header.point_format().len().into());
         records.take(header.number_of_points() as usize).for_each(&mut add);
     }
-    Ok(PointCloud { colors: colors.finish(), ..PointCloud::new(PointBuf::F64(points))? })
+    Ok(PointCloud::new(PointBuf::F64(points))?.colored(colors))
 }
 
 /// Returns the byte of a point's record at which red, green and blue begin, if it has them.

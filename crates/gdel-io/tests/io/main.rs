@@ -6,6 +6,7 @@ mod bad_input;
 mod colors;
 mod degenerate;
 mod e57;
+mod evidence;
 mod glb;
 mod laz;
 mod meshes;
