@@ -286,7 +286,7 @@ fn shapes_within_shapes_have_the_sides_that_normals_say() {
 fn degenerate_points_with_evidence() {
     let flat = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0], [2.0, 5.0, 0.0]];
     let equal = [[1.0, 2.0, 3.0]; 7];
-    let ones = vec![[0.0, 0.0, 1.0]; 7];
+    let ones = [[0.0, 0.0, 1.0]; 7];
     for points in [&flat[..], &flat[..3], &flat[..0], &equal] {
         let mut options = auto();
         options.normals = Some(Points::F64(&ones[..points.len()]));

@@ -114,11 +114,11 @@ impl<const D: usize> Unseen<D> {
     {
         let complex = &mesh.complex;
         let mut unseen = Unseen { facets: FxHashSet::default(), hidden: 0.0 };
-        for t in 0..complex.simplices.len() {
+        for (t, &is_inside) in is_inside.iter().enumerate() {
             for k in (0..N).filter(|&k| complex.across(t, k).is_none()) {
                 let vertices: [u32; D] = facet(&complex.simplices[t], k);
                 match hints.beyond_facet_of(complex, vertices) {
-                    Beyond::Inside if !is_inside[t] => unseen.hidden += area(&vertices.map(|v| complex.point(v))),
+                    Beyond::Inside if !is_inside => unseen.hidden += area(&vertices.map(|v| complex.point(v))),
                     Beyond::Inside | Beyond::Unknown => _ = unseen.facets.insert(sorted(mesh.given(vertices))),
                     Beyond::Outside => {}
                 }

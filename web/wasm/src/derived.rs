@@ -532,7 +532,7 @@ where
     ]))
 }
 
-fn surface_options(options: &JsValue) -> Result<SurfaceOptions, Thrown> {
+fn surface_options<const D: usize>(options: &JsValue) -> Result<SurfaceOptions<'static, D>, Thrown> {
     let mut found = SurfaceOptions::default();
     let share = |value: &JsValue| value.as_f64().filter(|share| (0.0..=1.0).contains(share));
     // `auto` is `None`.
