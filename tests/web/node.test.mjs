@@ -440,7 +440,10 @@ test('points bring their colours along, or what can stand for them', async () =>
   const bright = await read('0 0 0 0.5\n1 2 3 0.7\n');
   assert.deepEqual(bright.colors, Uint8Array.of(0, 0, 0, 255, 255, 255));
   assert.equal(bright.colorSource, 'intensity');
-  assert.equal((await read('0 0 0 0 0 1\n1 2 3 0 1 0\n')).colorSource, 'normals');
+  const turned = await read('0 0 0 0 0 1\n1 2 3 0 1 0\n');
+  assert.equal(turned.colorSource, 'normals');
+  assert.deepEqual(turned.normals, Float32Array.of(0, 0, 1, 0, 1, 0));
+  assert.deepEqual([turned.sensors, colored.normals], [null, null]);
   const plain = await read('0 0 0\n1 2 3\n');
   assert.equal(plain.colors, null);
   assert.equal(plain.colorSource, null);

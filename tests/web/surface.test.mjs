@@ -66,7 +66,15 @@ test('the surface of a box', async () => {
   assert.ok(solid instanceof Uint32Array && solid.length % 4 === 0);
   assert.deepEqual(numbers, {
     ...{ area: 96, components: 1, genus: 0, closed: true },
-    ...{ noise: 0, isolated: 0, droppedPieces: 0, filledCavities: 0, moved: null },
+    ...{
+      boundaries: 0,
+      evidence: 'hull',
+      noise: 0,
+      isolated: 0,
+      droppedPieces: 0,
+      filledCavities: 0,
+      moved: null,
+    },
   });
   assert.equal((await mesh.surface()).solid, null);
 });
@@ -107,6 +115,58 @@ test('smoothed points are returned', async () => {
       surface.vertices.slice(3 * v, 3 * v + 3),
       surface.moved.slice(3 * point, 3 * point + 3),
     );
+});
+
+/** Ground with two hills: x, y and z. */
+const ground = Array.from({ length: 900 }, (_, i) => {
+  const [x, y] = [i % 30, Math.floor(i / 30)];
+  return [x + ((7 * i) % 11) / 40, y + ((5 * i) % 13) / 50, 3 * Math.sin(x / 5) * Math.cos(y / 6)];
+});
+
+/** The share of the area that faces up. */
+function faceUp({ triangles, vertices }) {
+  let [up, all] = [0, 0];
+  for (let t = 0; t < triangles.length; t += 3) {
+    const [a, b, c] = [0, 1, 2].map((k) => 3 * triangles[t + k]);
+    const [u, v] = [b, c].map((p) => [0, 1].map((k) => vertices[p + k] - vertices[a + k]));
+    const area = u[0] * v[1] - u[1] * v[0];
+    up += Math.max(0, area);
+    all += Math.abs(area);
+  }
+  return up / all;
+}
+
+test('open surfaces, and what is known about their sides', async () => {
+  const mesh = await delaunay3d(ground);
+  const closed = await mesh.surface();
+  assert.deepEqual([closed.closed, closed.boundaries], [true, 0]);
+  const sensors = [[15, 15, 100], ...ground.map(([x, y]) => [x, y, 50])];
+  const evidences = {
+    below: { up: [0, 0, 1] },
+    normals: { normals: Float32Array.from(ground.flatMap(() => [0, 0, 2])) },
+    sensors: { sensors: Float64Array.from(sensors[0]) },
+  };
+  for (const [evidence, options] of Object.entries(evidences)) {
+    const surface = await mesh.surface({ ...options, open: 'auto' });
+    assert.deepEqual([surface.closed, surface.boundaries], [false, 1], evidence);
+    assert.equal(surface.evidence, evidence);
+    assert.ok(faceUp(surface) > 0.99, `${evidence}: ${faceUp(surface)}`);
+  }
+  const each = await mesh.surface({ sensors: Float64Array.from(sensors.slice(1).flat()) });
+  assert.equal(each.evidence, 'sensors');
+  assert.equal((await mesh.surface({ open: 'never' })).closed, true);
+});
+
+test('open curves, with y down', async () => {
+  const arc = Array.from({ length: 40 }, (_, i) => [i, 4 * Math.sin(i / 9)]);
+  const mesh = await delaunay2d(arc);
+  const curve = await mesh.surface({ up: [0, -1], open: 'auto' });
+  assert.deepEqual([curve.closed, curve.evidence, curve.edges.length], [false, 'below', 2 * 39]);
+  // What is below on the screen is on the left of an edge that runs to the left.
+  for (let e = 0; e < curve.edges.length; e += 2) {
+    const [from, to] = [curve.edges[e], curve.edges[e + 1]];
+    assert.ok(curve.vertices[2 * from] > curve.vertices[2 * to]);
+  }
 });
 
 test('files of a surface', async () => {
@@ -181,6 +241,17 @@ test('bad options are typed errors', async () => {
     await bad({ minPart }, /option minPart must be a number from 0 to 1/);
   for (const smooth of [-1, 1.5, 101, 'twice', null])
     await bad({ smooth }, /option smooth must be 'auto' or an integer from 0 to 100/);
+  for (const open of [true, 'always']) await bad({ open }, /option open must be 'never' or 'auto'/);
+  for (const up of [[0, 1], 'z', [0, 0, '1']]) await bad({ up }, /option up must be an array of 3/);
+  for (const [name, value] of [
+    ['normals', [0, 0, 1]],
+    ['normals', new Float32Array(4)],
+    ['sensors', new Uint32Array(3)],
+  ])
+    await bad({ [name]: value }, new RegExp(`option ${name} must be a Float32Array`));
+  await bad({ normals: new Float32Array(9) }, /3 .* 8/);
+  await bad({ normals: new Float32Array(24).fill(Number.NaN) }, /finite/);
+  await bad({ sensors: new Float32Array(9) }, /3/);
   await bad({ dropIsolated: 'no' }, /option dropIsolated must be true or false/);
   await bad({ solid: 1 }, /option solid must be true or false/);
   await bad({ minPart: () => 0.5 }, /option minPart/);

@@ -90,6 +90,25 @@ export interface SurfaceOptions extends TaskOptions {
    * to 100 times. Default `'auto'`: twice if there is noise, which is estimated, else never.
    */
   smooth?: number | 'auto' | undefined;
+  /**
+   * The normals of the points, which point outwards: 3 coordinates per point, 2 in 2D; 0 where one is
+   * unknown. Their lengths do not matter. {@link PointCloud.normals} has those of a file.
+   */
+  normals?: Coordinates | undefined;
+  /**
+   * The positions of the sensor, one for each point or one for all, such as {@link PointCloud.sensors}.
+   * What a point was seen through is outside.
+   */
+  sensors?: Coordinates | undefined;
+  /**
+   * The direction that is up, if what is below all points is inside, as in airborne scans of the ground.
+   */
+  up?: readonly number[] | undefined;
+  /**
+   * Whether triangles that only close gaps are left out: `'never'`, or `'auto'` where they are more than
+   * a tenth of the area, as in terrain, a wall or a scan from one side. Default `'never'`.
+   */
+  open?: 'never' | 'auto' | undefined;
   /** Whether to return `solid`, default false. */
   solid?: boolean | undefined;
 }
@@ -108,7 +127,10 @@ export interface SurfaceArrays {
   readonly sources: SignedIndices;
   /** Where each point lies: 0 outside or dropped, 1 on the surface, 2 inside the solid. */
   readonly sides: Uint8Array<ArrayBuffer>;
-  /** The volume of the solid in units of the input; its area in 2D. */
+  /**
+   * The volume of the solid in units of the input; its area in 2D. The solid of an open surface is closed
+   * by what was left out.
+   */
   readonly volume: number;
   /** The area of the surface; the length of the curves in 2D. */
   readonly area: number;
@@ -120,9 +142,17 @@ export interface SurfaceArrays {
   readonly genus: number;
   /**
    * Whether every edge belongs to exactly two triangles, in opposite directions; in 2D, every vertex to
-   * two edges. It was counted; by construction it is true.
+   * two edges. It was counted; by construction it is true, unless the surface is open.
    */
   readonly closed: boolean;
+  /** The number of closed curves that bound the surface; in 2D of curves with two ends. 0 if it is closed. */
+  readonly boundaries: number;
+  /**
+   * How it is known which side is inside: by `'normals'`, by `'sensors'`, since what is `'below'` is, or
+   * by the `'hull'`, beyond which is outside. `'guess'` if the points enclose little, as in a scan from
+   * one side: the surface may be inside out.
+   */
+  readonly evidence: 'normals' | 'sensors' | 'below' | 'hull' | 'guess';
   /**
    * The median distance of the points from quadrics through their neighbours, in units of the distance
    * between points; 0 where it was not estimated.

@@ -213,6 +213,13 @@ export interface PointCloud {
   colors: Uint8Array<ArrayBuffer> | null;
   /** What `colors` are; `null` if there are none. */
   colorSource: ColorSource | null;
+  /**
+   * The normal of each point, three coordinates, of length 1, or 0 where one is unknown; `null` if the file
+   * has none.
+   */
+  normals: Float32Array<ArrayBuffer> | null;
+  /** The positions of the scanner, one for each point or one for all; `null` if the file has none. */
+  sensors: Float64Array<ArrayBuffer> | null;
 }
 
 /**

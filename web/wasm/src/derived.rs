@@ -2,16 +2,19 @@
 //! counter-clockwise by the negation of all *y*, which is undone in what is returned.
 
 use gdel::{
-    AlphaShape, Clip, Csr, Error, Interpolation, Interpolator, Location, Locator, Mesh, Mesh2, Mesh3, Points, Side,
-    SpanningTree, Surface, SurfaceOptions, Voronoi,
+    AlphaShape, Clip, Csr, Error, Evidence, Interpolation, Interpolator, Location, Locator, Mesh, Mesh2, Mesh3, Open,
+    Points, Side, SpanningTree, Surface, SurfaceOptions, Voronoi,
     internals::{
         cpu::edit::Used,
         derived::{AlphaEdges, StolenMeasures, SurfaceMesh, VoronoiShapes},
         geometry::{Euclidean, Geometry},
     },
 };
-use js_sys::{Float64Array, Function, Int32Array, Uint8Array, Uint32Array};
-use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
+use js_sys::{Array, Float64Array, Function, Int32Array, Uint8Array, Uint32Array};
+use wasm_bindgen::{
+    JsCast,
+    prelude::{JsValue, wasm_bindgen},
+};
 
 use crate::{
     mesh::{CallerMesh, get, points_of_mesh},
@@ -504,7 +507,9 @@ where
     let task = Task::<M>::new::<D, N>(points, mesh, report, "surface")?;
     let mut is_solid_wanted = false;
     option(options, "solid", "true or false", JsValue::as_bool, &mut is_solid_wanted)?;
-    let surface = Surface::new(&task.mesh, task.points.points::<D>()?, &surface_options(options)?)?;
+    let [normals, sensors] = [vectors::<D>(options, "normals")?, vectors::<D>(options, "sensors")?];
+    let given = surface_options(options, [&normals, &sensors])?;
+    let surface = Surface::new(&task.mesh, task.points.points::<D>()?, &given)?;
     task.report(0.9)?;
     let sides: Vec<u8> = surface.sides().iter().map(|&side| code_of(side)).collect();
     let [pieces, cavities] = surface.dropped();
@@ -523,6 +528,8 @@ where
         ("components", surface.components().into()),
         ("genus", surface.genus().into()),
         ("closed", surface.is_closed().into()),
+        ("boundaries", surface.boundaries().into()),
+        ("evidence", name_of(surface.evidence()).into()),
         ("noise", surface.noise().into()),
         ("isolated", surface.isolated().into()),
         ("droppedPieces", pieces.into()),
@@ -532,7 +539,23 @@ where
     ]))
 }
 
-fn surface_options<const D: usize>(options: &JsValue) -> Result<SurfaceOptions<'static, D>, Thrown> {
+/// Normals or positions of sensors among the options.
+fn vectors<const D: usize>(options: &JsValue, name: &str) -> Result<Option<Coordinates>, Thrown> {
+    let mut vectors = None;
+    let convert = |value: &JsValue| Some(Some(Coordinates::new(value).ok().filter(|all| all.points::<D>().is_ok())?));
+    let must_be = format!("a Float32Array or a Float64Array of {D} numbers per vector");
+    option(options, name, &must_be, convert, &mut vectors)?;
+    if D == 2 {
+        vectors.iter_mut().for_each(Coordinates::flip_y);
+    }
+    Ok(vectors)
+}
+
+/// Converts the options; [`vectors`] are those among them.
+fn surface_options<'a, const D: usize>(
+    options: &JsValue,
+    [normals, sensors]: [&'a Option<Coordinates>; 2],
+) -> Result<SurfaceOptions<'a, D>, Thrown> {
     let mut found = SurfaceOptions::default();
     let share = |value: &JsValue| value.as_f64().filter(|share| (0.0..=1.0).contains(share));
     // `auto` is `None`.
@@ -541,9 +564,26 @@ fn surface_options<const D: usize>(options: &JsValue) -> Result<SurfaceOptions<'
         None if *value == "auto" => Some(None),
         _ => None,
     };
+    let direction = |value: &JsValue| {
+        let numbers: Option<Vec<f64>> = value.dyn_ref::<Array>()?.iter().map(|x| x.as_f64()).collect();
+        let mut direction: [f64; D] = numbers?.try_into().ok()?;
+        if D == 2 {
+            direction[1] = -direction[1];
+        }
+        Some(Some(direction))
+    };
+    let open = |value: &JsValue| match value.as_string()?.as_str() {
+        "never" => Some(Open::Never),
+        "auto" => Some(Open::Auto),
+        _ => None,
+    };
     option(options, "minPart", "a number from 0 to 1", share, &mut found.min_part)?;
     option(options, "dropIsolated", "true or false", JsValue::as_bool, &mut found.drop_isolated)?;
     option(options, "smooth", "'auto' or an integer from 0 to 100", times, &mut found.smooth)?;
+    option(options, "up", &format!("an array of {D} numbers"), direction, &mut found.up)?;
+    option(options, "open", "'never' or 'auto'", open, &mut found.open)?;
+    found.normals = normals.as_ref().map(Coordinates::points).transpose()?;
+    found.sensors = sensors.as_ref().map(Coordinates::points).transpose()?;
     Ok(found)
 }
 
@@ -569,6 +609,17 @@ fn code_of(side: Side) -> u8 {
         Side::Outside => 0,
         Side::On => 1,
         Side::Inside => 2,
+    }
+}
+
+/// Returns how it is known which side is inside.
+fn name_of(evidence: Evidence) -> &'static str {
+    match evidence {
+        Evidence::Normals => "normals",
+        Evidence::Sensors => "sensors",
+        Evidence::Below => "below",
+        Evidence::Hull => "hull",
+        Evidence::Guess => "guess",
     }
 }
 

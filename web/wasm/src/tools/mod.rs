@@ -40,11 +40,21 @@ pub fn read_points(bytes: &Uint8Array, extension: &str) -> Result<JsValue, Throw
         Some(colors) => (Uint8Array::new_from_slice(colors.rgb.as_flattened()).into(), colors.source.name().into()),
         None => (JsValue::NULL, JsValue::NULL),
     };
+    let normals = match &cloud.normals {
+        Some(normals) => Float32Array::new_from_slice(normals.as_flattened()).into(),
+        None => JsValue::NULL,
+    };
+    let sensors = match cloud.sensors.as_slice() {
+        [] => JsValue::NULL,
+        sensors => Float64Array::new_from_slice(sensors.as_flattened()).into(),
+    };
     Ok(object([
         ("points", points),
         ("noReturn", (cloud.no_return as f64).into()),
         ("colors", colors),
         ("colorSource", source),
+        ("normals", normals),
+        ("sensors", sensors),
     ]))
 }
 
