@@ -25,7 +25,7 @@ esac
 
 # System packages: the linker that rustc calls, and a software Vulkan driver (lavapipe) for the
 # tests of the GPU code; two browsers for those of the npm package.
-packages=(gcc libc6-dev libvulkan1 mesa-vulkan-drivers)
+packages=(g++ gcc libc6-dev libvulkan1 mesa-vulkan-drivers)
 [[ $what != web-tests ]] || packages+=(chromium firefox-esr)
 [[ $what != browser-gpu ]] || packages+=(chromium xvfb x11-xkb-utils xkb-data fonts-dejavu-core xz-utils libegl1 libgles2 libgl1)
 [[ $what != guard ]] || packages+=(valgrind)

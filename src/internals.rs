@@ -67,7 +67,7 @@ pub mod d3 {
     }
 }
 pub mod derived {
-    pub use crate::derived::{AlphaEdges, StolenMeasures, SurfaceMesh, VoronoiShapes};
+    pub use crate::derived::{AlphaEdges, StolenMeasures, SurfaceMesh, VoronoiShapes, crossing_facets};
 }
 pub mod dimension {
     pub use crate::dimension::Dimension;

@@ -24,6 +24,6 @@ pub use alpha::{AlphaComplex, AlphaEdges, AlphaShape, AlphaShape2, FaceClass, In
 pub use device_locator::{DeviceLocator, DeviceLocator2, Locations};
 pub use interpolate::{Interpolation, Interpolator, Interpolator2, StolenMeasures};
 pub use locate::{Location, Locator, Locator2};
-pub use surface::{Evidence, Open, Side, Surface, SurfaceMesh, SurfaceOptions};
+pub use surface::{Evidence, Open, Side, Surface, SurfaceMesh, SurfaceOptions, crossing_facets};
 pub use tree::SpanningTree;
 pub use voronoi::{Cell, Clip, Diagram, Voronoi, Voronoi2, VoronoiShapes};

@@ -17,7 +17,7 @@ fn found(points: &[[f64; 3]], options: &SurfaceOptions<'_>) -> Surface {
     surface
 }
 
-fn check(surface: &Surface) {
+pub(crate) fn check(surface: &Surface) {
     let facets = surface.facets();
     assert_eq!(surface.vertices().len(), surface.sources().len());
     assert!(surface.sources().is_sorted());

@@ -10,6 +10,7 @@ mod inputs;
 mod interpolate;
 mod locate;
 mod nearest;
+mod refine;
 mod surface;
 mod surfaces_pinned;
 mod tree;

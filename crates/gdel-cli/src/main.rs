@@ -3,6 +3,8 @@
 
 mod adapters;
 mod alpha;
+#[cfg(feature = "decimate")]
+mod decimate;
 mod derive;
 mod dimension;
 mod failure;

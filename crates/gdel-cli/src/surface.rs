@@ -46,6 +46,14 @@ pub(super) struct Arguments {
     /// terrain or a scan from one side; without, the surface is closed
     #[arg(long, value_enum, default_value_t = OpenName::Never)]
     open: OpenName,
+    /// Split each triangle into four, with the new vertices on quadrics through the points around them
+    #[arg(long)]
+    refine: bool,
+    /// Decimate the surface to about so many triangles, or more where fewer would not be a closed manifold. In
+    /// places they may then intersect: the number of those is printed
+    #[cfg(feature = "decimate")]
+    #[arg(long, value_name = "N")]
+    triangles: Option<std::num::NonZeroUsize>,
     /// Where to write: the surface as .stl, .ply, .obj, .glb or .3mf, the tetrahedra of the solid as
     /// .vtu; in 2D, .vtu has the curves, and all others have the triangles between them
     #[arg(short, long = "output", value_name = "FILE", value_parser = parse_output)]
@@ -116,6 +124,7 @@ where
     options.sensors = (!sensors.is_empty()).then_some(Points::F64(sensors));
     options.normals = cloud.normals.as_deref().filter(|_| !arguments.no_normals).map(Points::F32);
     options.up = arguments.below.then(|| std::array::from_fn(|axis| if axis == D - 1 { 1.0 } else { 0.0 }));
+    options.refine = arguments.refine;
     options.open = match arguments.open {
         OpenName::Never => Open::Never,
         OpenName::Auto => Open::Auto,
@@ -123,7 +132,16 @@ where
     options.min_part = arguments.min_part;
     options.drop_isolated = !arguments.keep_isolated;
     options.smooth = arguments.smooth.0;
-    let (_, surface) = common.run::<M, D, N, _>(points, "surface", |mesh| find(mesh, points, &options))?;
+    #[cfg(feature = "decimate")]
+    let triangles = arguments.triangles.map(std::num::NonZeroUsize::get);
+    #[cfg(not(feature = "decimate"))]
+    let triangles = None;
+    if triangles.is_some() && (D == 2 || matches!(output.format(), SolidFormat::Vtu)) {
+        let what = "--triangles needs 3D points and a file of triangles";
+        return Err(Failure::Usage(ErrorKind::ArgumentConflict, what.into()));
+    }
+    let find = |mesh: &M| find(mesh, points, &options, triangles);
+    let (_, (surface, facets)) = common.run::<M, D, N, _>(points, "surface", find)?;
     if surface.evidence() == Evidence::Guess {
         eprintln!(
             "gdel: {}: the points enclose little, so that which side is inside is a guess; `--below` says that what is \
@@ -140,16 +158,26 @@ where
         SolidFormat::Surface(format) if D == 2 => write_triangles(output, format, moved, surface.solid(), "surface"),
         SolidFormat::Surface(format) => {
             let vertices = in_precision_of(points, surface.vertices());
-            write_triangles(output, format, (&vertices).into(), surface.facets(), "surface")
+            write_triangles(
+                output,
+                format,
+                (&vertices).into(),
+                facets.as_deref().unwrap_or(surface.facets()),
+                "surface",
+            )
         }
     }
 }
+
+/// A surface, and its facets if they were decimated.
+type Parts<const D: usize, const N: usize> = (Surface<D, N>, Option<Vec<[u32; D]>>);
 
 fn find<M: gdel::Mesh<D, N>, const D: usize, const N: usize>(
     mesh: &M,
     points: Points<'_, D>,
     options: &SurfaceOptions<'_, D>,
-) -> Result<Found<Surface<D, N>>, Error>
+    triangles: Option<usize>,
+) -> Result<Found<Parts<D, N>>, Error>
 where
     Euclidean: SurfaceMesh<D, N>,
 {
@@ -181,7 +209,33 @@ where
         numbers.insert(5, ("genus", Number::Count(surface.genus())));
         numbers.insert(6, ("boundaries", Number::Count(surface.boundaries())));
     }
-    Ok(Found { result: surface, numbers })
+    #[cfg(feature = "decimate")]
+    let facets = triangles.map(|count| decimated(&surface, count, &mut numbers));
+    #[cfg(not(feature = "decimate"))]
+    let facets = triangles.and(None);
+    Ok(Found { result: (surface, facets), numbers })
+}
+
+/// Returns fewer facets of a surface, and adds what became of them to the numbers.
+#[cfg(feature = "decimate")]
+fn decimated<const D: usize, const N: usize>(
+    surface: &Surface<D, N>,
+    count: usize,
+    numbers: &mut Vec<(&'static str, Number)>,
+) -> Vec<[u32; D]>
+where
+    Euclidean: SurfaceMesh<D, N>,
+{
+    let in_space: Vec<[f64; 3]> = surface.vertices().iter().map(|p| std::array::from_fn(|k| p[k])).collect();
+    let triangles: Vec<[u32; 3]> = surface.facets().iter().map(|facet| std::array::from_fn(|k| facet[k])).collect();
+    let fewer = super::decimate::decimated(&in_space, &triangles, count);
+    let facets: Vec<[u32; D]> = fewer.iter().map(|triangle| std::array::from_fn(|k| triangle[k])).collect();
+    numbers.push(("decimated", Number::Count(facets.len())));
+    numbers.push((
+        "intersecting",
+        Number::Count(gdel::internals::derived::crossing_facets(&facets, surface.vertices()).len()),
+    ));
+    facets
 }
 
 /// Returns how it is known which side is inside, in a word.

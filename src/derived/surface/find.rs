@@ -12,7 +12,7 @@ use super::{
     evidence::{Evidence, Hints},
     open::{self, Gaps, Open, Unseen},
     poles::{Poles, Spheres},
-    solid,
+    refine, solid,
 };
 use crate::{
     error::Error,
@@ -76,17 +76,24 @@ where
         let complex = &self.mesh.complex;
         let hints = Hints::new(complex.points(), &self.mesh.points, self.scale, options);
         let (is_inside, dropped) = self.inside(stars, options, &hints);
-        let Shell { boundary, vertices, evidence } = self.shell(&is_inside, &hints, options.open, position);
+        let Shell { mut boundary, mut vertices, evidence } = self.shell(&is_inside, &hints, options.open, position);
+        let topology = Topology::new(&boundary, vertices.len());
         let sides = self.sides(&is_inside, &boundary.sources);
+        let mut gain = 0.0;
+        if options.refine {
+            let refined = refine::refine(&boundary, &mut vertices, self.scale);
+            (boundary.facets, gain) = (refined.facets, refined.gain);
+            boundary.sources.resize(vertices.len(), NONE);
+        }
         // The power of the scale may underflow.
         let unscaled = |measure: f64, power: usize| (0..power).fold(measure, |measure, _| measure / self.scale);
         let inside = || (0..is_inside.len()).filter(|&t| is_inside[t]);
         Surface {
             solid: inside().map(|t| self.mesh.given(complex.simplices[t])).collect(),
             sides,
-            volume: unscaled(solid::volume(complex, inside()), D),
+            volume: unscaled(solid::volume(complex, inside()) + gain, D),
             area: unscaled(boundary::area(&boundary.facets, &vertices, self.scale), D - 1),
-            topology: Topology::new(&boundary, vertices.len()),
+            topology,
             vertices,
             sources: boundary.sources,
             facets: boundary.facets,

@@ -12,13 +12,15 @@
 //! 4. `cut`: the least surface that separates the poles inside from those outside;
 //! 5. `solid`: without specks and bubbles;
 //! 6. `boundary`: its facets as a manifold;
-//! 7. `open`: without those that only close gaps, on request (`beyond`).
+//! 7. `open`: without those that only close gaps, on request (`beyond`);
+//! 8. `refine`: with new vertices on quadrics, on request (`crossing`).
 
 mod beyond;
 mod boundary;
 mod capacity;
 mod clean;
 mod constraints;
+mod crossing;
 mod cut;
 mod evidence;
 mod find;
@@ -28,6 +30,7 @@ mod outliers;
 mod parity;
 mod poles;
 mod quadrics;
+mod refine;
 mod solid;
 
 use super::complex::Complex;
@@ -46,6 +49,7 @@ use boundary::Boundary;
 use clean::Cleaned;
 use find::Prepared;
 
+pub use crossing::facets as crossing_facets;
 pub use evidence::Evidence;
 pub use open::Open;
 
@@ -82,6 +86,11 @@ pub struct SurfaceOptions<'a, const D: usize = 3> {
     pub up: Option<[f64; D]>,
     /// Whether facets that only close gaps are left out; by default never.
     pub open: Open,
+    /// Whether each triangle is split into four, and each edge in two in 2D, with the new vertices on quadrics
+    /// through the points around them; by default `false`. The surface is then closer to what is curved.
+    /// New vertices stay in the middles of their edges where points do not fit a quadric, and where facets
+    /// would intersect.
+    pub refine: bool,
 }
 
 impl<const D: usize> Default for SurfaceOptions<'_, D> {
@@ -94,6 +103,7 @@ impl<const D: usize> Default for SurfaceOptions<'_, D> {
             sensors: None,
             up: None,
             open: Open::Never,
+            refine: false,
         }
     }
 }
@@ -295,7 +305,8 @@ impl<const D: usize, const N: usize> Surface<D, N> {
 
     /// Returns for each vertex the point that it is, in ascending order. Points at which sheets of the
     /// surface touch come several times. Where two sheets touch along an edge whose vertices they cannot
-    /// split, one has a new vertex in its middle, which is no point: `u32::MAX`.
+    /// split, one has a new vertex in its middle, which is no point: `u32::MAX`. So are those of a
+    /// [refined](SurfaceOptions::refine) surface.
     pub fn sources(&self) -> &[u32] {
         &self.sources
     }

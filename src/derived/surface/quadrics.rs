@@ -20,6 +20,9 @@ pub(super) const MIN_POINTS: usize = 8 * NEIGHBORS;
 /// The number of points by which noise is estimated.
 const SAMPLES: usize = 2000;
 
+/// Points that are farther from a quadric, in units of their distance, do not fit it: there is an edge.
+const MAX_RESIDUAL: f64 = 0.1;
+
 /// The number of points that is worth handing to another thread.
 const GRAIN: usize = 1 << 9;
 
@@ -44,7 +47,7 @@ pub(super) fn noise<const D: usize>(points: &[[f64; D]]) -> f64 {
     let samples: Vec<u32> = (0..points.len() as u32).step_by(step).collect();
     let parts = parallel::map_grains(Threads::All, samples.len(), GRAIN, |range| {
         let mut near = Vec::new();
-        let fits = samples[range].iter().map(|&i| fit(points, &tree, i, &mut near));
+        let fits = samples[range].iter().map(|&i| fit(points, &tree, points[i as usize], &mut near));
         fits.map(|fit| if fit.spacing > 0.0 { fit.residual / fit.spacing } else { 0.0 }).collect::<Vec<f64>>()
     });
     median(&mut parallel::joined(parts)).unwrap_or(0.0)
@@ -57,7 +60,7 @@ pub(super) fn projected<const D: usize>(points: &[[f64; D]]) -> Vec<[f64; D]> {
         let mut near = Vec::new();
         range
             .map(|i| {
-                let moved = vector::plus(points[i], fit(points, &tree, i as u32, &mut near).offset);
+                let moved = vector::plus(points[i], fit(points, &tree, points[i], &mut near).offset);
                 if moved.iter().all(|x| x.is_finite()) { moved } else { points[i] }
             })
             .collect::<Vec<_>>()
@@ -65,9 +68,20 @@ pub(super) fn projected<const D: usize>(points: &[[f64; D]]) -> Vec<[f64; D]> {
     parallel::joined(parts)
 }
 
-/// Fits a quadric to the neighbours of a point. The nearer ones weigh more.
-fn fit<const D: usize>(points: &[[f64; D]], tree: &Tree<'_, D>, i: u32, near: &mut Vec<(f64, u32)>) -> Fit<D> {
-    let point = points[i as usize];
+/// Returns what moves a place onto the quadric through the points around it; `None` if they do not fit one.
+pub(super) fn offset<const D: usize>(
+    points: &[[f64; D]],
+    tree: &Tree<'_, D>,
+    place: [f64; D],
+    near: &mut Vec<(f64, u32)>,
+) -> Option<[f64; D]> {
+    let fit = fit(points, tree, place, near);
+    let is_good = fit.residual <= MAX_RESIDUAL * fit.spacing && fit.offset.iter().all(|x| x.is_finite());
+    is_good.then_some(fit.offset)
+}
+
+/// Fits a quadric to the points around one. The nearer ones weigh more.
+fn fit<const D: usize>(points: &[[f64; D]], tree: &Tree<'_, D>, point: [f64; D], near: &mut Vec<(f64, u32)>) -> Fit<D> {
     tree.nearest(point, NEIGHBORS, near);
     let radius = near.last().map_or(0.0, |&(squared, _)| squared.sqrt());
     let mut fit = Fit { offset: [0.0; D], residual: 0.0, spacing: 0.0 };

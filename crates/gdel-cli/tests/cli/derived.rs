@@ -245,6 +245,38 @@ fn surfaces_of_scans_from_one_side() {
 }
 
 #[test]
+fn surfaces_are_refined_and_decimated() {
+    let folder = folder();
+    let path = folder.path();
+    succeeds(path, &["generate", "sphere", "2000", "-o", "s.csv"]);
+    let run = stats(path, &["surface", "s.csv", "--refine", "-o", "fine.ply"]);
+    assert_eq!((&run["surface_triangles"], &run["closed"], &run["genus"]), (&15_984.into(), &true.into(), &0.into()));
+    let exact = 4.0 / 3.0 * std::f64::consts::PI;
+    assert!((run["volume"].as_f64().unwrap() / exact - 1.0).abs() < 0.002, "{run}");
+    for options in [&["--refine"][..], &[]] {
+        let arguments = [&["surface", BUNNY, "--triangles", "5000", "-fo", "few.obj"], options].concat();
+        let run = stats(path, &arguments);
+        assert!((4500..=5500).contains(&run["decimated"].as_u64().unwrap()), "{run}");
+        assert!(run["intersecting"].as_u64().unwrap() < 20, "{run}");
+        let file = fs::read_to_string(path.join("few.obj")).unwrap();
+        let mut edges: Vec<[u32; 2]> = Vec::new();
+        for line in file.lines().filter_map(|line| line.strip_prefix("f ")) {
+            let corners: Vec<u32> = line.split(' ').map(|word| word.parse().unwrap()).collect();
+            edges.extend((0..3).map(|k| [corners[k], corners[(k + 1) % 3]]));
+        }
+        let mut reversed: Vec<_> = edges.iter().map(|&[a, b]| [b, a]).collect();
+        edges.sort_unstable();
+        reversed.sort_unstable();
+        assert!(edges == reversed && edges.windows(2).all(|pair| pair[0] < pair[1]));
+    }
+    for wrong in [&["--triangles", "0"][..], &["--triangles", "9", "--dim", "2"]] {
+        let run = gdel(path, &[&["surface", "s.csv", "-fo", "s.ply"], wrong].concat());
+        assert_eq!(run.status.code(), Some(2), "{wrong:?}");
+    }
+    assert_eq!(gdel(path, &["surface", "s.csv", "--triangles", "9", "-o", "s.vtu"]).status.code(), Some(2));
+}
+
+#[test]
 fn surface_in_all_formats_and_dimensions() {
     let folder = samples();
     let path = folder.path();
