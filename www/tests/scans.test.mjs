@@ -60,13 +60,28 @@ describe('a scan', () => {
     page = await open(browser, `${url}#points=uniform_200_1`);
   });
 
-  test('from the air is framed and cut without its birds', async () => {
+  test('from the air is framed without its birds, and is ground without a bottom', async () => {
     await drop(page, 'hills.xyz', xyz(airborne()));
     assert.match(await text(page, 'count'), /^8,040 points/);
-    const counts = await shown(page);
-    const share = counts.shown / counts.total;
-    assert.ok(share > 0.25 && share < 0.75, `${counts.shown} of ${counts.total} shown`);
+    const line = await text(page, 'surface-text');
+    assert.match(line, /^Open surface: area [\d,]+ file units²\. 5 stray points left out\.$/);
+    // The hills have 600,000 m² as seen from above, and hardly more.
+    const [area] = numbers(line);
+    assert.ok(area > 590_000 && area < 630_000, line);
+    assert.ok(await page.locator('#prints').isHidden());
+    assert.ok(await page.locator('#legend').isHidden());
     await pictureOf(page, 'scan-airborne');
+    // It can be cut, too, and saved.
+    const { shown: whole } = await shown(page);
+    await slide(page, 'keep', 0.5);
+    const half = (await shown(page)).shown / whole;
+    assert.ok(half > 0.3 && half < 0.7, `${half} shown`);
+    await tab(page, 'use');
+    const folder = mkdtempSync(join(tmpdir(), 'gdel-scan-'));
+    const obj = readFileSync((await save(page, 'OBJ', folder))[0], 'utf8');
+    rmSync(folder, { recursive: true });
+    const triangles = obj.split('\n').filter((line) => line.startsWith('f ')).length;
+    assert.ok(triangles > 15_000 && triangles < 16_000, `${triangles} triangles`);
   });
 
   test('from a tripod shows the street, not what is a kilometre away', async () => {
@@ -79,6 +94,14 @@ describe('a scan', () => {
     const share = counts.shown / counts.total;
     assert.ok(share > 0.25 && share < 0.75, `${counts.shown} of ${counts.total} shown`);
     await pictureOf(page, 'scan-terrestrial');
+  });
+
+  test('from a tripod without far points is a street with walls, open above', async () => {
+    const street = terrestrial().filter((p) => Math.hypot(...p) < 100);
+    await drop(page, 'street.xyz', xyz(street));
+    assert.match(await text(page, 'surface-text'), /^Open surface: area [\d,]+ file units²\.$/);
+    await pictureOf(page, 'scan-street');
+    await expectAccessible(page, 'street');
   });
 
   test('stands upright, whichever axis is up', async () => {
@@ -96,6 +119,8 @@ describe('a scan', () => {
     await drop(page, 'hills.xyz', xyz(airborne()));
     await slide(page, 'keep', 0.2);
     await tab(page, 'view');
+    // From the surface, the slider leads to the radius that suits; from there, it goes on.
+    await slide(page, 'alpha', 0.9);
     await slide(page, 'alpha', 0.9);
     await page.focus('#canvas');
     await page.keyboard.press('ArrowLeft');

@@ -11,6 +11,10 @@ export interface About {
   up: Custom;
   /** The points' own colours: red, green and blue each. */
   colors: { rgb: Uint8Array; source: ColorSource } | null;
+  /** In 3D the points' normals, three coordinates each; null if they have none. */
+  normals: Float32Array<ArrayBuffer> | null;
+  /** In 3D the positions of the scanner, one or one for each point; null if they are not known. */
+  sensors: Float64Array<ArrayBuffer> | null;
   /** In 2D the z coordinates of the file, unless all are the same. */
   heights: Float32Array | Float64Array | null;
 }
@@ -20,5 +24,7 @@ export const NOTHING_ABOUT: About = {
   onFaces: null,
   up: { axis: 'y', unless: 'never' },
   colors: null,
+  normals: null,
+  sensors: null,
   heights: null,
 };

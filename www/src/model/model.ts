@@ -108,6 +108,8 @@ export interface Drawing {
    * slider, ascending; null where all is shown.
    */
   alpha: { value: number; isAuto: boolean; stops: Float32Array } | null;
+  /** Whether this is an open surface, which has no inside. */
+  open?: boolean;
   /** Whether these are Voronoi cells, in 3D; what is counted then are cells. */
   cells?: boolean;
   /** The round that this is the triangulation of; null for the result. */

@@ -7,12 +7,12 @@ import { FACETS, type Frame, frameOf, toFrame } from '../geometry/mesh';
 import { firstHit, placeOf, type Ray } from '../geometry/pick';
 import { outermost, piecesOf, trianglesOf } from '../geometry/pieces';
 import { type Heights, heightsAlong, keepOf, levelOf } from '../geometry/plane';
-import { type ColorScale, mapping, positionOn, scaleFor, scaleOf } from '../geometry/scale';
+import { mapping, positionOn, scaleFor, scaleOf } from '../geometry/scale';
 import { boundaryOf, type Surface, surfaceOf } from '../geometry/surface';
 import { detectUp, poseFor } from '../geometry/up';
 import type { About } from './about';
 import { AlphaRadii } from './alpha';
-import { Body } from './body';
+import { Body, cutOf } from './body';
 import {
   cornersOf,
   type Drawing,
@@ -122,10 +122,9 @@ export class Model3d implements Model {
 
   /** Finds the surface that the points were taken from. */
   findSurface(signal: AbortSignal): Promise<Found> {
-    const { mesh, points, positions, frame } = this;
-    const finding = (this.finding ??= Scanned.of(mesh, points, positions, frame, signal).then(
-      (scanned) => (this.scanned = scanned).found,
-    ));
+    const { mesh, points, positions, frame, about } = this;
+    const making = () => Scanned.of(mesh, points, positions, frame, about, signal);
+    const finding = (this.finding ??= making().then((scanned) => (this.scanned = scanned).found));
     // After an abort, it may be asked for again.
     finding.catch(() => (this.finding = null));
     return finding;
@@ -199,6 +198,8 @@ export class Model3d implements Model {
     const heights = body.heightsAlong(plane.normal);
     const level = levelOf(plane, heights);
     const boundary = boundaryOf(body, kept, heights, level);
+    const open = body === this.whole ? null : this.scanned!.facets;
+    if (open) boundary.facets = boundary.facets.filter((facet) => open[facet] === 1);
     const created = body === this.whole ? this.created : null;
     const by = color === 'phase' && !created ? 'quality' : color;
     const scale = scaleFor(by, body.measured, kept.kept);
@@ -208,8 +209,10 @@ export class Model3d implements Model {
     const cut = cutOf(body, request, scale, heights);
     if (!pieces) this.last = { cut, body, kept, heights, value, surface };
     return {
-      surface: pieces || onGpu ? null : surface(),
-      ...(pieces ? {} : { cut }),
+      surface: pieces || (onGpu && !open) ? null : surface(),
+      // The GPU would list what an open surface is closed by.
+      ...(pieces || open ? {} : { cut }),
+      open: open !== null,
       pieces: pieces
         ? piecesOf(
             body,
@@ -385,31 +388,6 @@ export class Model3d implements Model {
     }
     return this.filtered!.kept;
   }
-}
-
-/** What the GPU needs to cut a body by itself. */
-function cutOf(
-  { number, tetrahedra, positions }: Body,
-  { filter, skin }: DrawRequest,
-  scale: ColorScale,
-  { normal, extent, middle }: Heights,
-): CutOf {
-  const mesh = `mesh ${number}`;
-  return {
-    tetrahedra: tetrahedra.length / 4,
-    points: positions.length / 3,
-    parts: {
-      tetrahedra: mesh,
-      neighbors: mesh,
-      positions: mesh,
-      colors: mesh,
-      heights: `${mesh} along ${normal}`,
-      filtered: `${mesh} filtered ${JSON.stringify(filter)}`,
-      values: `${mesh} on ${JSON.stringify(scale)}`,
-    },
-    heights: { normal, extent, middle },
-    skin,
-  };
 }
 
 /** The positions of some tetrahedra on the colour scale. */

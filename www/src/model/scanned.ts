@@ -1,6 +1,8 @@
 import type { Mesh3, Surface3 } from 'gdel-wasm';
 import { type Frame, toFrame } from '../geometry/mesh';
-import { neighborsOf } from '../geometry/neighbors';
+import { cornersOf, neighborsOf, Triples } from '../geometry/neighbors';
+import { detectUp, type Up } from '../geometry/up';
+import type { About } from './about';
 import { Body } from './body';
 import type { SurfaceMesh } from './surfaceFiles';
 
@@ -15,6 +17,8 @@ export interface Found {
   isolated: number;
   /** Whether points were moved because they are noisy. */
   smoothed: boolean;
+  /** Whether it has no boundary; without, it is a scan from one side, or terrain. */
+  closed: boolean;
   /** Whether the points seem to be a scan of it. */
   suits: boolean;
 }
@@ -22,30 +26,34 @@ export interface Found {
 /** At least so many of the points lie on the surface that they were taken from. */
 const ON_SURFACE = 0.8;
 
-/** At most so much of the surface closes gaps. */
+/** If more of a surface closes gaps, the points are no scan of something closed. */
 const GAPS = 0.25;
 
 /** Triangles whose edges are so many times as long as is usual close gaps. */
 const WIDE = 8;
 
-/** The closed surface of a scan, and its solid. */
+/** The surface of a scan, and its solid. */
 export class Scanned {
   readonly found: Found;
   /** The tetrahedra of the solid. */
   readonly body: Body;
+  /** Of an open surface, the facets of the body that belong to it: 1. All that bound it of a closed one: null. */
+  readonly facets: Uint8Array | null;
 
   private constructor(
     readonly surface: Surface3,
+    suits: boolean,
     points: Float32Array | Float64Array,
     positions: Float32Array,
     frame: Frame,
   ) {
-    const { triangles, volume, area, components, genus, isolated, moved } = surface;
+    const { triangles, volume, area, components, genus, isolated, moved, closed } = surface;
     const solid = surface.solid!;
     this.found = {
       ...{ triangles: triangles.length / 3, volume, area, components, genus, isolated },
       smoothed: moved !== null,
-      suits: suits(surface),
+      closed,
+      suits,
     };
     this.body = new Body(
       moved ?? points,
@@ -53,6 +61,7 @@ export class Scanned {
       solid,
       neighborsOf(solid),
     );
+    this.facets = closed ? null : facetsOf(surface, this.body);
   }
 
   static async of(
@@ -60,10 +69,22 @@ export class Scanned {
     points: Float32Array | Float64Array,
     positions: Float32Array,
     frame: Frame,
+    about: About,
     signal: AbortSignal,
   ): Promise<Scanned> {
-    const surface = await mesh.surface({ solid: true, signal });
-    return new Scanned(surface, points, positions, frame);
+    const { normals, sensors } = about;
+    const evidence = { normals: normals ?? undefined, sensors: sensors ?? undefined };
+    const find = (up?: number[]) =>
+      mesh.surface({ ...evidence, up, open: 'auto', solid: true, signal });
+    let surface = await find();
+    let isScan = isOn(surface) && !(surface.closed && closesGaps(surface));
+    if (isOn(surface) && (!isScan || surface.evidence === 'guess')) {
+      // Of the ground as seen from above or from a tripod, what is below is solid.
+      const open = await find(vectorOf(detectUp(points, about.up)));
+      if (isOn(open) && !open.closed && (isScan || !closesGaps(open)))
+        [surface, isScan] = [open, true];
+    }
+    return new Scanned(surface, isScan, points, positions, frame);
   }
 
   /** Triangles of the vertices, in the colours of their points. */
@@ -82,15 +103,15 @@ export class Scanned {
   }
 }
 
-/**
- * Whether points were taken from a surface: nearly all are on it, and little of it closes gaps.
- * Points that fill a volume have hardly any on the surface; of a scan from one side, half of it
- * closes the other.
- */
-function suits({ sides, triangles, vertices }: Surface3): boolean {
+/** Whether points were taken from the surface: of those that fill a volume, hardly any are on it. */
+function isOn({ sides, triangles }: Surface3): boolean {
   let on = 0;
   for (const side of sides) if (side === 1) on++;
-  if (triangles.length === 0 || on < ON_SURFACE * sides.length) return false;
+  return triangles.length > 0 && on >= ON_SURFACE * sides.length;
+}
+
+/** Whether much of the surface is of triangles that are far larger than most. */
+function closesGaps({ triangles, vertices }: Surface3): boolean {
   const count = triangles.length / 3;
   const [longest, areas] = [new Float64Array(count), new Float64Array(count)];
   const edge = (from: number, to: number) =>
@@ -111,5 +132,21 @@ function suits({ sides, triangles, vertices }: Surface3): boolean {
     all += areas[t];
     if (longest[t] > WIDE * usual) wide += areas[t];
   }
-  return wide <= GAPS * all;
+  return wide > GAPS * all;
+}
+
+/** The direction of an axis. */
+function vectorOf(axis: Up): number[] {
+  const sign = axis.startsWith('-') ? -1 : 1;
+  return ['x', 'y', 'z'].map((each) => (axis.endsWith(each) ? sign : 0));
+}
+
+/** Finds the facets of a body that are triangles of an open surface. */
+function facetsOf({ triangles, sources }: Surface3, { tetrahedra, neighbors }: Body): Uint8Array {
+  const there = new Triples(triangles.length / 3);
+  for (let t = 0; t < triangles.length; t += 3)
+    there.add(sources[triangles[t]], sources[triangles[t + 1]], sources[triangles[t + 2]]);
+  return Uint8Array.from(neighbors, (across, facet) =>
+    across < 0 && there.has(...cornersOf(tetrahedra, facet)) ? 1 : 0,
+  );
 }

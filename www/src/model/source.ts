@@ -162,6 +162,9 @@ export async function load(
       onFaces: onFacesOf(parts),
       up: parts[0].about.up,
       colors: colorsOf(parts),
+      // Of several files, they would have to be joined.
+      normals: parts.length === 1 ? parts[0].about.normals : null,
+      sensors: parts.length === 1 ? parts[0].about.sensors : null,
     },
   };
 }
@@ -188,7 +191,7 @@ async function read(
     const about: About = { ...NOTHING_ABOUT, colors: colors && { rgb: colors, source: 'rgb' } };
     return { points, about, faces };
   }
-  const { points, noReturn, colors, colorSource } = await readPoints(content, {
+  const { points, noReturn, colors, colorSource, normals, sensors } = await readPoints(content, {
     name,
     signal,
     onProgress: ({ fraction }) => onProgress(fraction),
@@ -199,6 +202,8 @@ async function read(
       ...NOTHING_ABOUT,
       noReturn,
       up: upOf(name),
+      normals,
+      sensors,
       colors: colors && { rgb: colors, source: colorSource! },
     },
     faces: async () =>
@@ -220,7 +225,13 @@ async function withFaces(part: Read, bare = false): Promise<Read> {
     points: bare
       ? points
       : joined([points, points instanceof Float32Array ? Float32Array.from(more) : more]),
-    about: { ...about, onFaces: { points: more.length / 3, taken: !bare } },
+    // Those on the faces have none.
+    about: {
+      ...about,
+      normals: null,
+      sensors: null,
+      onFaces: { points: more.length / 3, taken: !bare },
+    },
   };
 }
 

@@ -18,14 +18,15 @@ export const QUANTITIES: Record<ColorBy, Record<Dimension, [name: string, unit: 
 
 /** What the colours mean, and how much of the mesh is to be seen. */
 export function showLegend(
-  { scale, shown, total, leftOut, milliseconds, cells, round }: Drawing,
+  { scale, shown, total, leftOut, milliseconds, cells, open, round }: Drawing,
   { map, source, layers }: Settings,
   hasColors: boolean,
 ): void {
   const { dimension } = source;
   const isInside = layers.skin && dimension === 3 && !cells && round === null;
   const isCovered = layers.skin && dimension === 2 && hasColors;
-  byId('legend').hidden = total === 0 || !layers.simplices || isCovered;
+  byId('legend').hidden =
+    total === 0 || !layers.simplices || isCovered || Boolean(isInside && open);
   const [quantity, unit] = QUANTITIES[scale.by][dimension];
   const name = cells ? `${quantity} of the cell` : quantity;
   const title = isInside ? `Inside: ${name.toLowerCase()}` : name;

@@ -22,6 +22,8 @@ export function surfaceLine(page: Page): Part {
     const { surface, settings } = page;
     const isShown = surface !== null && settings.filter === 'surface' && !page.live;
     line.hidden = !isShown;
+    // Printers need a closed one.
+    byId('prints').hidden = !surface?.closed;
     // The status is read out, so it changes only when it has to.
     const words = isShown ? wordsOf(surface) : '';
     if (text.textContent !== words) text.textContent = words;
@@ -29,10 +31,12 @@ export function surfaceLine(page: Page): Part {
   return { changed, ran: changed, found: changed, lived: changed };
 }
 
-function wordsOf({ components, volume, area, isolated, smoothed }: Found): string {
+function wordsOf({ components, volume, area, isolated, smoothed, closed }: Found): string {
   const parts = components > 1 ? ` in ${count(components)} parts` : '';
+  const kind = `${closed ? 'Closed' : 'Open'} surface${parts}`;
+  const inside = closed ? `volume ${measured(volume)} file units³, ` : '';
   return [
-    `Closed surface${parts}: volume ${measured(volume)} file units³, area ${measured(area)} file units².`,
+    `${kind}: ${inside}area ${measured(area)} file units².`,
     isolated > 0 ? `${things(isolated, 'stray point', 'stray points')} left out.` : '',
     smoothed ? 'Noise was smoothed.' : '',
   ]
