@@ -152,7 +152,8 @@ fn exact_circumcenter_offset<const D: usize, const N: usize>(simplex: &[[f64; D]
 where
     Euclidean: Geometry<D, N>,
 {
-    rounded(exact_offset::<D, N, D>(simplex, Euclidean::circumcenter_fraction))
+    real::rounded_circumcenter_offset(simplex)
+        .unwrap_or_else(|| rounded(exact_offset::<D, N, D>(simplex, Euclidean::circumcenter_fraction)))
 }
 
 /// A point as numerators, a positive denominator, and the exponent of a power of two.

@@ -89,6 +89,13 @@ impl Double {
         Double { high, low: ((ah * bh - high) + ah * bl + al * bh) + al * bl }
     }
 
+    /// Returns the quotient, with a relative error below 2⁻⁹⁷.
+    fn over(self, divisor: Self) -> Self {
+        let high = self.high / divisor.high;
+        let rest = self - divisor * Double { high, low: 0.0 };
+        Double::ordered_sum(high, rest.high / divisor.high)
+    }
+
     /// Returns `numerator` / `denominator` · 2ᵉ; the denominator must be positive.
     pub(crate) fn quotient(numerator: &Big, denominator: &Big, exponent: i32) -> Self {
         let high = quotient(numerator, denominator, exponent);
@@ -160,6 +167,47 @@ impl Real for Double {
     }
 }
 
+/// Returns the circumcentre of a simplex relative to its first vertex, correctly rounded, if twice the
+/// precision tells to which number.
+///
+/// With ε = 2⁻¹⁰⁰, the product P of the lengths of the edges from the first vertex and their sum S, the
+/// numerators have errors below 16·ε·P·S: their terms add up to at most P·S, and none has more than
+/// eight roundings. The denominator has one below 32·ε·P, as six roundings and at most 2·√3·P show. So
+/// the quotient q has one below ε·P·(16·S + 32·|q|)/|denominator|, and twice that if q is the one that was
+/// computed; the division adds 2⁻⁹⁷·|q|.
+pub(super) fn rounded_circumcenter_offset<const D: usize, const N: usize>(simplex: &[[f64; D]; N]) -> Option<[f64; D]>
+where
+    Euclidean: Geometry<D, N>,
+{
+    let edges: [[Double; D]; D] =
+        std::array::from_fn(|i| std::array::from_fn(|axis| Double::difference(simplex[i + 1][axis], simplex[0][axis])));
+    let lengths = edges.map(|edge| edge.iter().map(|x| x.high * x.high).sum::<f64>().sqrt());
+    // No product, and no error of one, comes near the limits of `f64`.
+    if !lengths.iter().all(|length| (1e-30..1e30).contains(length)) {
+        return None;
+    }
+    let (product, sum) = (lengths.iter().product::<f64>(), lengths.iter().sum::<f64>());
+    let (numerators, denominator) = Euclidean::circumcenter_fraction(&edges);
+    let unit = Double::EPSILON * product / denominator.high.abs();
+    // Also if the denominator is 0.
+    if unit.is_nan() || unit > 1.0 / 64.0 {
+        return None;
+    }
+    let mut center = [0.0; D];
+    for (x, numerator) in center.iter_mut().zip(numerators) {
+        let quotient = numerator.over(denominator);
+        let size = quotient.high.abs();
+        let error = 2.0 * unit * (16.0 * sum + 32.0 * size) + 8.0 * Double::EPSILON * size;
+        let is_certain = |low: f64| quotient.high + low == quotient.high;
+        // Twice the error, since the sums are rounded.
+        if !is_certain(quotient.low - 2.0 * error) || !is_certain(quotient.low + 2.0 * error) {
+            return None;
+        }
+        *x = quotient.high;
+    }
+    Some(center)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -191,6 +239,29 @@ mod tests {
             prop_assert!(near(a - b, &x - &y, &x - &y));
             let product = (&x * &y) >> 400u32;
             prop_assert!(near(a * b, product.clone(), product));
+        }
+
+        #[test]
+        fn circumcentres_are_rounded_as_exact_ones(
+            corners in prop::array::uniform4(prop::array::uniform3(-(1i32 << 24)..1 << 24)),
+            heights in prop::array::uniform4(-4i32..4),
+            scale in -20i32..20,
+        ) {
+            // Four points that are nearly in a plane.
+            let unit = 2f64.powi(scale);
+            let mut corners = corners.map(|p| p.map(|x| f64::from(x) * unit));
+            for (p, height) in corners.iter_mut().zip(heights) {
+                p[2] = 0.25 * p[0] - 0.5 * p[1] + f64::from(height) * unit;
+            }
+            let exact = exact_offset::<3, 4, 3>(&corners, Euclidean::circumcenter_fraction);
+            if let Some(center) = rounded_circumcenter_offset(&corners) {
+                prop_assert_eq!(center, crate::geometry::rounded(exact));
+            }
+            let [a, b, c, _] = corners.map(|[x, y, _]| [x, y]);
+            let exact = exact_offset::<2, 3, 2>(&[a, b, c], Euclidean::circumcenter_fraction);
+            if let Some(center) = rounded_circumcenter_offset(&[a, b, c]) {
+                prop_assert_eq!(center, crate::geometry::rounded(exact));
+            }
         }
 
         #[test]

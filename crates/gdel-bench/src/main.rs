@@ -12,6 +12,7 @@ mod points;
 mod queries;
 mod row;
 mod run;
+mod surface;
 
 use clap::Parser;
 use std::{error::Error, process::ExitCode};
@@ -27,6 +28,7 @@ enum Command {
     Queries(queries::Arguments),
     Answers(answers::Arguments),
     Points(points::Arguments),
+    Surface(surface::Arguments),
 }
 
 fn main() -> ExitCode {
@@ -38,6 +40,7 @@ fn main() -> ExitCode {
         Command::Queries(arguments) => queries::run(&arguments),
         Command::Answers(arguments) => answers::run(&arguments),
         Command::Points(arguments) => points::run(&arguments),
+        Command::Surface(arguments) => surface::run(&arguments),
     };
     match measured {
         Ok(()) => ExitCode::SUCCESS,

@@ -1,10 +1,15 @@
-//! The least cut between simplices that votes place inside and outside, by preflows (Goldberg and
-//! Tarjan, *A new approach to the maximum-flow problem*, 1988).
+//! The least cut between simplices that votes place inside and outside, by augmenting paths (Boykov and
+//! Kolmogorov, *An experimental comparison of min-cut/max-flow algorithms for energy minimization in
+//! vision*, 2004).
 //!
 //! Nodes are simplices, and arc *k* of a node is its facet *k*. Votes for the inside are supplies, votes
-//! for the outside demands. Flow goes from the supplies through facets to the demands, and what cannot
-//! is left over. At the end those nodes are outside that can still reach a demand: of all least cuts,
-//! this has the smallest outside, and so it is the same whatever the order of the steps.
+//! for the outside demands. Trees grow from both through arcs that are not full. Where they meet, flow
+//! goes from a supply to a demand, and what is cut off looks for another parent. At the end those nodes
+//! are outside that can still reach a demand: of all least cuts, this has the smallest outside, and so it
+//! is the same whatever the order of the steps.
+//!
+//! So nodes that are near in memory, and in space, find their paths first, each block by itself and in
+//! any thread. The trees stay, and where blocks meet they grow on.
 
 use super::super::complex::Complex;
 use crate::{
@@ -13,24 +18,49 @@ use crate::{
 };
 use std::collections::VecDeque;
 
-/// A simplex with its arcs.
+/// So many nodes can be numbered, since an arc takes two bits more.
+pub(super) const MAX_NODES: usize = 1 << 30;
+
+/// The number of nodes of a block: they fit into a processor's own cache. The tests' meshes have several.
+const BLOCK: usize = if cfg!(test) { 4 } else { 1 << 14 };
+
+/// A simplex with its arcs, and its place in a tree.
 #[derive(Debug, Clone, Copy)]
 struct Node<const N: usize> {
     /// The arc from the other side of each facet, as 4·(node) + (facet); [`NONE`] on the hull.
     mates: [u32; N],
     /// How much can still flow through each facet to the other side.
     residual: [u16; N],
-    /// What has come here and not gone on, or the demand that is left, which is negative.
+    /// The supply that is left, or the demand, which is negative.
     excess: i32,
-    /// At most the number of arcs to the nearest node with a demand; [`UNREACHED`] if there is no way.
-    label: u32,
+    tree: Tree,
+    parent: Parent,
+    is_active: bool,
+    /// The number of nodes on the way to the root, as it was known at the time of the stamp.
+    depth: u32,
+    stamp: u32,
 }
 
-/// No demand can be reached.
-const UNREACHED: u32 = u32::MAX;
+/// The tree that a node belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Tree {
+    None,
+    /// A supply can reach the node.
+    Supply,
+    /// The node can reach a demand.
+    Demand,
+}
 
-/// So many nodes can be numbered, since an arc takes two bits more.
-pub(super) const MAX_NODES: usize = 1 << 30;
+/// What connects a node to its tree.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Parent {
+    /// The node is in no tree, or has lost its parent.
+    None,
+    /// The node is a supply or a demand.
+    Root,
+    /// The arc of the node that leads to its parent.
+    Arc(u8),
+}
 
 /// Returns whether each simplex is inside. `costs` are those of facets as their simplices see them, and
 /// `excess` the votes for the inside less those for the outside.
@@ -39,114 +69,260 @@ pub(super) fn inside<const D: usize, const N: usize>(
     costs: &[[u16; N]],
     excess: &[i32],
 ) -> Vec<bool> {
-    let mut network = Network::new(complex, costs, excess);
-    network.run();
-    network.nodes.iter().map(|node| node.label == UNREACHED).collect()
+    let mut nodes = nodes(complex, costs, excess);
+    let mut blocks: Vec<&mut [Node<N>]> = nodes.chunks_mut(BLOCK).collect();
+    let stamps = parallel::map_mut(Threads::All, &mut blocks, |i, block| {
+        let mut forest = Forest::new(block, i * BLOCK, 0);
+        forest.activate(|_, node| node.tree != Tree::None);
+        forest.run();
+        forest.stamp
+    });
+    let mut forest = Forest::new(&mut nodes, 0, stamps.into_iter().max().unwrap_or(0));
+    forest.activate(|i, node| {
+        node.tree != Tree::None && node.mates.iter().any(|&mate| mate != NONE && mate as usize / 4 / BLOCK != i / BLOCK)
+    });
+    forest.run();
+    nodes.iter().map(|node| node.tree != Tree::Demand).collect()
 }
 
-#[derive(Debug)]
-struct Network<const N: usize> {
-    nodes: Vec<Node<N>>,
-    /// Nodes with an excess that can reach a demand.
-    active: VecDeque<u32>,
-}
-
-impl<const N: usize> Network<N> {
-    fn new<const D: usize>(complex: &Complex<'_, D, N>, costs: &[[u16; N]], excess: &[i32]) -> Self {
-        let empty = Node { mates: [NONE; N], residual: [0; N], excess: 0, label: 0 };
-        let mut nodes = parallel::filled(Threads::All, excess.len(), empty);
-        parallel::for_chunks(Threads::All, &mut nodes, |start, chunk| {
-            for (node, t) in chunk.iter_mut().zip(start..) {
-                node.excess = excess[t];
-                for k in 0..N {
-                    let Some(across) = complex.across(t, k) else { continue };
-                    // Only in a broken mesh a neighbour does not know its neighbour.
-                    if let Some(&cost) = costs[across].get(complex.facet_towards(across, t)) {
-                        node.mates[k] = 4 * across as u32 + complex.facet_towards(across, t) as u32;
-                        node.residual[k] = costs[t][k].max(cost);
-                    }
+/// Returns the nodes, of which supplies and demands are roots.
+fn nodes<const D: usize, const N: usize>(
+    complex: &Complex<'_, D, N>,
+    costs: &[[u16; N]],
+    excess: &[i32],
+) -> Vec<Node<N>> {
+    let (mates, residual) = ([NONE; N], [0; N]);
+    let (tree, parent) = (Tree::None, Parent::None);
+    let empty = Node { mates, residual, excess: 0, tree, parent, is_active: false, depth: 0, stamp: 0 };
+    let mut nodes = parallel::filled(Threads::All, excess.len(), empty);
+    parallel::for_chunks(Threads::All, &mut nodes, |start, chunk| {
+        for (node, t) in chunk.iter_mut().zip(start..) {
+            node.excess = excess[t];
+            if excess[t] != 0 {
+                node.tree = if excess[t] > 0 { Tree::Supply } else { Tree::Demand };
+                (node.parent, node.depth) = (Parent::Root, 1);
+            }
+            for k in 0..N {
+                let Some(across) = complex.across(t, k) else { continue };
+                let facet = complex.facet_towards(across, t);
+                // Only in a broken mesh a neighbour does not know its neighbour, or meets it twice.
+                if complex.facet_towards(t, across) != k {
+                    continue;
+                }
+                if let Some(&cost) = costs[across].get(facet) {
+                    node.mates[k] = 4 * across as u32 + facet as u32;
+                    node.residual[k] = costs[t][k].max(cost);
                 }
             }
-        });
-        Network { nodes, active: VecDeque::new() }
+        }
+    });
+    nodes
+}
+
+/// Trees over a range of nodes. Arcs that leave it are not seen.
+struct Forest<'a, const N: usize> {
+    nodes: &'a mut [Node<N>],
+    /// The number of the first node.
+    first: usize,
+    /// Nodes at which trees may grow.
+    active: VecDeque<u32>,
+    /// Nodes that have lost their parents.
+    orphans: VecDeque<u32>,
+    /// The number of paths so far.
+    stamp: u32,
+}
+
+impl<'a, const N: usize> Forest<'a, N> {
+    fn new(nodes: &'a mut [Node<N>], first: usize, stamp: u32) -> Self {
+        Forest { nodes, first, active: VecDeque::new(), orphans: VecDeque::new(), stamp }
+    }
+
+    /// Lets trees grow at some nodes.
+    fn activate(&mut self, is_active: impl Fn(usize, &Node<N>) -> bool) {
+        for (i, node) in self.nodes.iter_mut().enumerate() {
+            node.is_active = is_active(self.first + i, node);
+            if node.is_active {
+                self.active.push_back(i as u32);
+            }
+        }
     }
 
     /// Sends as much as possible from supplies to demands.
     fn run(&mut self) {
-        self.label_all();
-        let mut steps = 0;
-        while let Some(t) = self.active.pop_front() {
-            steps += self.discharge(t);
-            // Labels fall behind the distances, and nodes that are cut off look for a way in vain.
-            if steps > self.nodes.len() / 4 {
-                steps = 0;
-                self.label_all();
-            }
-        }
-        self.label_all();
-    }
-
-    /// Sets all labels to the distances, and gathers the nodes that have an excess to send.
-    fn label_all(&mut self) {
-        let mut queue = VecDeque::new();
-        for (t, node) in (0..).zip(&mut self.nodes) {
-            node.label = UNREACHED;
-            if node.excess < 0 {
-                node.label = 0;
-                queue.push_back(t);
-            }
-        }
-        self.active.clear();
-        while let Some(t) = queue.pop_front() {
-            let Node { mates, label, excess, .. } = self.nodes[t as usize];
-            if excess > 0 {
-                self.active.push_back(t);
-            }
-            for mate in mates.into_iter().filter(|&mate| mate != NONE) {
-                let from = &mut self.nodes[(mate / 4) as usize];
-                if from.label == UNREACHED && from.residual[(mate % 4) as usize] > 0 {
-                    from.label = label + 1;
-                    queue.push_back(mate / 4);
+        while let Some(i) = self.active.pop_front() {
+            while self.node(i).tree != Tree::None {
+                let Some((from, k)) = self.grow(i) else { break };
+                self.stamp += 1;
+                self.augment(from, k);
+                while let Some(orphan) = self.orphans.pop_front() {
+                    self.adopt(orphan);
                 }
             }
+            self.nodes[i as usize].is_active = false;
         }
     }
 
-    /// Sends the excess of a node on, raising its label as far as necessary. Returns the number of
-    /// times that its arcs were looked at.
-    fn discharge(&mut self, t: u32) -> usize {
-        let mut steps = 0;
-        while self.nodes[t as usize].excess > 0 && self.nodes[t as usize].label != UNREACHED {
+    fn node(&self, i: u32) -> &Node<N> {
+        &self.nodes[i as usize]
+    }
+
+    /// Returns the node across facet `k` and the number of the facet there; `None` outside.
+    fn across(&self, i: u32, k: usize) -> Option<(u32, usize)> {
+        let mate = self.nodes[i as usize].mates[k];
+        let other = (mate as usize / 4).wrapping_sub(self.first);
+        (mate != NONE && other < self.nodes.len()).then_some((other as u32, mate as usize % 4))
+    }
+
+    /// Returns how much can flow through facet `k` of a node away from the root, in the direction of a
+    /// tree: of supplies to the other side, of demands from there.
+    fn outward(&self, tree: Tree, (i, k): (u32, usize), (j, l): (u32, usize)) -> u16 {
+        if tree == Tree::Supply { self.nodes[i as usize].residual[k] } else { self.nodes[j as usize].residual[l] }
+    }
+
+    /// Makes the neighbours of a node part of its tree. Returns the arc from the tree of a supply to
+    /// that of a demand if it finds one.
+    fn grow(&mut self, i: u32) -> Option<(u32, usize)> {
+        let Node { tree, depth, stamp, .. } = *self.node(i);
+        for k in 0..N {
+            let Some((j, l)) = self.across(i, k) else { continue };
+            if self.outward(tree, (i, k), (j, l)) == 0 {
+                continue;
+            }
+            let other = &mut self.nodes[j as usize];
+            if other.tree == Tree::None {
+                (other.tree, other.parent) = (tree, Parent::Arc(l as u8));
+                (other.depth, other.stamp) = (depth + 1, stamp);
+                self.activate_one(j);
+            } else if other.tree != tree {
+                return Some(if tree == Tree::Supply { (i, k) } else { (j, l) });
+            } else if other.stamp <= stamp && other.depth > depth + 1 {
+                // A shorter way to a root.
+                (other.parent, other.depth, other.stamp) = (Parent::Arc(l as u8), depth + 1, stamp);
+            }
+        }
+        None
+    }
+
+    fn activate_one(&mut self, i: u32) {
+        if !std::mem::replace(&mut self.nodes[i as usize].is_active, true) {
+            self.active.push_back(i);
+        }
+    }
+
+    /// Calls `visit` with each arc in the direction of the flow on the path from a node to its root, and
+    /// returns the root.
+    fn path(&self, mut i: u32, mut visit: impl FnMut((u32, usize))) -> u32 {
+        while let Parent::Arc(k) = self.node(i).parent {
+            // The other node is in the range, as it is a parent.
+            let Some((j, l)) = self.across(i, k.into()) else { break };
+            visit(if self.node(i).tree == Tree::Supply { (j, l) } else { (i, k.into()) });
+            i = j;
+        }
+        i
+    }
+
+    /// Sends flow through an arc from the tree of a supply to that of a demand, as much as the paths to
+    /// both roots let through.
+    fn augment(&mut self, from: u32, k: usize) {
+        let Some((to, _)) = self.across(from, k) else { return };
+        let mut amount = self.node(from).residual[k];
+        let mut limit = |(i, k): (u32, usize)| amount = amount.min(self.node(i).residual[k]);
+        let roots = [self.path(from, &mut limit), self.path(to, &mut limit)];
+        let [supply, demand] = roots.map(|root| self.node(root).excess.unsigned_abs());
+        let amount = u32::from(amount).min(supply).min(demand) as u16;
+        self.send(from, k, amount);
+        for end in [from, to] {
+            self.send_along(end, amount);
+        }
+    }
+
+    /// Sends flow along the path between a node and its root.
+    fn send_along(&mut self, mut i: u32, amount: u16) {
+        while let Parent::Arc(k) = self.node(i).parent {
+            let k = usize::from(k);
+            let Some((j, l)) = self.across(i, k) else { return };
+            let (from, k) = if self.node(i).tree == Tree::Supply { (j, l) } else { (i, k) };
+            if self.send(from, k, amount) == 0 {
+                self.lose_parent(i);
+            }
+            i = j;
+        }
+        let root = &mut self.nodes[i as usize];
+        root.excess -= root.excess.signum() * i32::from(amount);
+        if root.excess == 0 {
+            self.lose_parent(i);
+        }
+    }
+
+    fn lose_parent(&mut self, i: u32) {
+        self.nodes[i as usize].parent = Parent::None;
+        self.orphans.push_back(i);
+    }
+
+    /// Sends flow through facet `k` of a node, and returns what can still flow there.
+    fn send(&mut self, i: u32, k: usize, amount: u16) -> u16 {
+        if let Some((j, l)) = self.across(i, k) {
+            self.nodes[j as usize].residual[l] += amount;
+        }
+        let residual = &mut self.nodes[i as usize].residual[k];
+        *residual -= amount;
+        *residual
+    }
+
+    /// Finds another parent for a node of a tree, or else makes it part of none.
+    fn adopt(&mut self, i: u32) {
+        let tree = self.node(i).tree;
+        let mut best = (u32::MAX, 0);
+        for k in 0..N {
+            let Some((j, l)) = self.across(i, k) else { continue };
+            if self.node(j).tree == tree && self.outward(tree, (j, l), (i, k)) > 0 {
+                best = best.min((self.depth(j).unwrap_or(u32::MAX), k));
+            }
+        }
+        if best.0 < u32::MAX {
+            let node = &mut self.nodes[i as usize];
+            (node.parent, node.depth, node.stamp) = (Parent::Arc(best.1 as u8), best.0 + 1, self.stamp);
+            return;
+        }
+        for k in 0..N {
+            let Some((j, l)) = self.across(i, k).filter(|&(j, _)| self.node(j).tree == tree) else { continue };
+            if self.outward(tree, (j, l), (i, k)) > 0 {
+                self.activate_one(j);
+            }
+            if self.node(j).parent == Parent::Arc(l as u8) {
+                self.lose_parent(j);
+            }
+        }
+        self.nodes[i as usize].tree = Tree::None;
+    }
+
+    /// Returns the number of nodes from a node to its root; `None` if the path is broken. Notes it in
+    /// all nodes on the way.
+    fn depth(&mut self, start: u32) -> Option<u32> {
+        let (mut i, mut steps) = (start, 0);
+        let depth = loop {
+            let node = self.node(i);
+            if node.stamp == self.stamp && node.parent != Parent::None {
+                break steps + node.depth;
+            }
             steps += 1;
-            let Node { mates, mut residual, mut excess, label } = self.nodes[t as usize];
-            let mut lowest = UNREACHED;
-            for k in (0..N).filter(|&k| mates[k] != NONE) {
-                if residual[k] == 0 {
-                    continue;
-                }
-                let to = &mut self.nodes[(mates[k] / 4) as usize];
-                if to.label.checked_add(1) == Some(label) && excess > 0 {
-                    let sent = excess.min(i32::from(residual[k]));
-                    let was_active = to.excess > 0;
-                    to.excess += sent;
-                    to.residual[(mates[k] % 4) as usize] += sent as u16;
-                    if to.excess > 0 && !was_active {
-                        self.active.push_back(mates[k] / 4);
-                    }
-                    excess -= sent;
-                    residual[k] -= sent as u16;
-                }
-                if residual[k] > 0 {
-                    lowest = lowest.min(self.nodes[(mates[k] / 4) as usize].label);
-                }
+            match node.parent {
+                Parent::None => return None,
+                Parent::Root => break steps,
+                Parent::Arc(k) => i = self.across(i, k.into())?.0,
             }
-            let node = &mut self.nodes[t as usize];
-            (node.residual, node.excess) = (residual, excess);
-            if excess > 0 {
-                node.label = lowest.saturating_add(1);
+        };
+        let (mut i, mut left) = (start, depth);
+        while self.node(i).stamp != self.stamp {
+            let node = &mut self.nodes[i as usize];
+            (node.stamp, node.depth) = (self.stamp, left);
+            left -= 1;
+            match self.node(i).parent {
+                Parent::Arc(k) => i = self.across(i, k.into())?.0,
+                _ => break,
             }
         }
-        steps
+        Some(depth)
     }
 }
 

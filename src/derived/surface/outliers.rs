@@ -43,29 +43,42 @@ pub(super) fn isolated<const D: usize, const N: usize>(complex: &Complex<'_, D, 
                 return false;
             }
             let own = reach(complex, stars, v);
+            if own <= limit {
+                return false;
+            }
             let mut others: Vec<f64> = neighbors(complex, stars, v).iter().map(|&w| reach(complex, stars, w)).collect();
-            own > limit && median(&mut others).is_some_and(|around| own > FACTOR * FACTOR * around)
+            median(&mut others).is_some_and(|around| own > FACTOR * FACTOR * around)
         };
         range.map(is_isolated).collect::<Vec<bool>>()
     });
     parallel::joined(parts)
 }
 
-/// Returns whether a vertex has enough neighbours within a squared distance, without looking at all.
+/// Returns whether a vertex has enough neighbours within a squared distance, or they and their neighbours
+/// are enough. Where it does not, its [`reach`] is farther: as many are among those that this looks at.
 fn has_company<const D: usize, const N: usize>(complex: &Complex<'_, D, N>, stars: &Csr, v: u32, limit: f64) -> bool {
     let point = complex.point(v);
-    let (mut found, mut count) = ([v; NEIGHBORS], 0);
-    for &t in stars.of(v) {
-        for &w in &complex.simplices[t as usize] {
-            let is_new = w != v && !found[..count].contains(&w);
-            if is_new && vector::squared_norm(vector::minus(complex.point(w), point)) <= limit {
-                found[count] = w;
-                count += 1;
-                if count == NEIGHBORS {
-                    return true;
+    // First the vertex itself.
+    let (mut found, mut count) = ([v; NEIGHBORS + 1], 1);
+    let mut looked = 0;
+    let mut direct = 1;
+    while looked < direct {
+        for &t in stars.of(found[looked]) {
+            for &w in &complex.simplices[t as usize] {
+                let is_new = !found[..count].contains(&w);
+                if is_new && vector::squared_norm(vector::minus(complex.point(w), point)) <= limit {
+                    found[count] = w;
+                    count += 1;
+                    if count > NEIGHBORS {
+                        return true;
+                    }
                 }
             }
         }
+        if looked == 0 {
+            direct = count;
+        }
+        looked += 1;
     }
     false
 }
