@@ -169,6 +169,16 @@ test('open curves, with y down', async () => {
   }
 });
 
+test('a refined surface is closer to the sphere', async () => {
+  const mesh = await delaunay3d(await generate('sphere', 1000, { seed: 3 }));
+  const [plain, refined] = [await mesh.surface(), await mesh.surface({ refine: true })];
+  assertClosed(refined);
+  assert.equal(refined.triangles.length, 4 * plain.triangles.length);
+  assert.equal(refined.sources.filter((source) => source < 0).length, plain.triangles.length / 2);
+  const missing = ({ volume }) => (4 / 3) * Math.PI - volume;
+  assert.ok(missing(refined) < missing(plain) / 2, `${missing(refined)}, ${missing(plain)}`);
+});
+
 test('files of a surface', async () => {
   const surface = await (await delaunay3d(new Float32Array(box(4).flat()))).surface();
   const count = surface.triangles.length / 3;
@@ -253,6 +263,7 @@ test('bad options are typed errors', async () => {
   await bad({ normals: new Float32Array(24).fill(Number.NaN) }, /finite/);
   await bad({ sensors: new Float32Array(9) }, /3/);
   await bad({ dropIsolated: 'no' }, /option dropIsolated must be true or false/);
+  await bad({ refine: 'yes' }, /option refine must be true or false/);
   await bad({ solid: 1 }, /option solid must be true or false/);
   await bad({ minPart: () => 0.5 }, /option minPart/);
   await bad(null, /options must be an object/);

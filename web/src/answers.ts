@@ -109,6 +109,11 @@ export interface SurfaceOptions extends TaskOptions {
    * a tenth of the area, as in terrain, a wall or a scan from one side. Default `'never'`.
    */
   open?: 'never' | 'auto' | undefined;
+  /**
+   * Whether to split each triangle into four, and each edge into two in 2D, with the new vertices on
+   * quadrics through the points around them: closer to what is curved. Default false.
+   */
+  refine?: boolean | undefined;
   /** Whether to return `solid`, default false. */
   solid?: boolean | undefined;
 }
@@ -122,7 +127,8 @@ export interface SurfaceArrays {
   readonly vertices: Coordinates;
   /**
    * For each vertex the point that it is, ascending. A point where sheets of the surface touch comes
-   * several times. −1 for a vertex in the middle of an edge along which two sheets touch.
+   * several times. −1 for a vertex in the middle of an edge along which two sheets touch, and
+   * for those of a refined surface.
    */
   readonly sources: SignedIndices;
   /** Where each point lies: 0 outside or dropped, 1 on the surface, 2 inside the solid. */

@@ -580,6 +580,7 @@ fn surface_options<'a, const D: usize>(
     option(options, "minPart", "a number from 0 to 1", share, &mut found.min_part)?;
     option(options, "dropIsolated", "true or false", JsValue::as_bool, &mut found.drop_isolated)?;
     option(options, "smooth", "'auto' or an integer from 0 to 100", times, &mut found.smooth)?;
+    option(options, "refine", "true or false", JsValue::as_bool, &mut found.refine)?;
     option(options, "up", &format!("an array of {D} numbers"), direction, &mut found.up)?;
     option(options, "open", "'never' or 'auto'", open, &mut found.open)?;
     found.normals = normals.as_ref().map(Coordinates::points).transpose()?;
