@@ -5,6 +5,7 @@ use std::{
     env,
     fmt::Write,
     fs,
+    hash::{DefaultHasher, Hash, Hasher},
     path::{Path, PathBuf},
 };
 
@@ -226,6 +227,10 @@ fn module(
     writeln!(text, "/// The storage buffers of a kernel, at most.\npub(crate) const MAX_BUFFERS: u32 = {buffers};")?;
     write_constants(&mut text, declarations)?;
     write_layouts(&mut text, declarations)?;
+    let mut hasher = DefaultHasher::new();
+    text.hash(&mut hasher);
+    let digest = hasher.finish();
+    writeln!(text, "/// Tells these shaders from those of other versions.\n#[allow(dead_code)]\npub(crate) const DIGEST: u64 = {digest};")?;
     Ok(text)
 }
 

@@ -165,7 +165,3 @@ pub mod predicates {
         pub use crate::predicates::symbolic::{break_tie, without};
     }
 }
-#[cfg(feature = "gpu")]
-pub mod triangulator {
-    pub use crate::triangulator::{MIN_POINTS_2D, MIN_POINTS_3D};
-}

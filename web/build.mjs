@@ -129,7 +129,7 @@ function writeCopies() {
   }
 }
 
-async function bundle(entry, outfile, { plugins = [], ...options } = {}) {
+async function bundle(entry, outfile, { plugins = [], define = {}, ...options } = {}) {
   const target = 'es2022';
   const { outputFiles } = await esbuild.build({
     entryPoints: [join(web, 'src', entry)],
@@ -140,6 +140,7 @@ async function bundle(entry, outfile, { plugins = [], ...options } = {}) {
     target,
     legalComments: 'none',
     plugins: [glue, copies, ...plugins],
+    define: { VERSION: JSON.stringify(version), ...define },
     ...options,
   });
   // Minified as a script, whose names at the top level stay: those of functions and classes are

@@ -24,7 +24,7 @@ use crate::{
     mesh::MeshInfo,
     options::Options,
     parallel::{self, Threads},
-    platform,
+    platform::{self, gpu::Task},
     stats::{Fallback, Phase, Restart, Stats, Stopwatch, UpdateStats},
 };
 
@@ -211,6 +211,10 @@ where
     /// The kernels for points on the narrow lattice, compiled when such points first come, because
     /// compiling takes long.
     narrow: Option<Phase1<D>>,
+    /// What compiles these beside other work.
+    compiling_narrow: Option<Task<Result<Phase1<D>, Error>>>,
+    /// Whether runs take the wide kernels until the narrow ones are compiled, rather than wait.
+    compiles_meanwhile: bool,
     /// The kernels for large arrays in parts, for points of one width, since the last input that needed
     /// them.
     in_parts: Option<(Width, Phase1<D>)>,
@@ -234,6 +238,8 @@ where
             gpu,
             wide,
             narrow: None,
+            compiling_narrow: None,
+            compiles_meanwhile: false,
             in_parts: None,
             settings: Settings::default(),
             work: Default::default(),
@@ -251,6 +257,11 @@ where
             Some(narrow) => narrow.finish_compiling(&self.gpu).await,
             None => Ok(()),
         }
+    }
+
+    /// Makes runs with narrow coordinates take the wide kernels until the narrow ones are compiled, rather than wait.
+    pub fn compile_meanwhile(&mut self) {
+        self.compiles_meanwhile = true;
     }
 
     /// Changes the settings for Phase 1, for experiments: they change the time, and not the set of
@@ -426,7 +437,14 @@ where
         let stays = |mesh: &&DeviceMesh<D>| mesh.begun_anew() == 0;
         let repaired = moved.as_ref().map(|&(mesh, _)| mesh).filter(stays);
         let first = repaired.map_or_else(Vec::new, |mesh| mesh.first().to_vec());
-        let Fitted { params, start } = host.ask(Fit { first }).await?;
+        let mut wide = false;
+        let Fitted { params, start } = loop {
+            let fitted = host.ask(Fit { first: first.clone(), wide }).await?;
+            wide = fitted.params.width() == Width::Narrow && !self.has_narrow().await?;
+            if !wide {
+                break fitted;
+            }
+        };
         let mut stats = Stats::new(Backend::Gpu);
         let Some(first) = start else {
             if let Some((_, update)) = moved {
@@ -486,6 +504,26 @@ where
             Err(_) if has_moved => Err(Restart::Stuck),
             Err(why) => Ok(left_to_cpu(why, stats)),
         })
+    }
+
+    /// Returns whether a run with narrow coordinates can use the kernels for these: if they are compiled, or it has to wait
+    /// for that. Begins to compile them else; the wide ones serve meanwhile.
+    async fn has_narrow(&mut self) -> Result<bool, Error> {
+        if !self.compiles_meanwhile || self.narrow.is_some() {
+            return Ok(true);
+        }
+        match self.compiling_narrow.take() {
+            Some(mut task) => match task.is_done() {
+                true => self.narrow = Some(task.result().await?),
+                false => self.compiling_narrow = Some(task),
+            },
+            None => {
+                let gpu = self.gpu.clone();
+                let compile = async move { Phase1::new(&gpu, Width::Narrow).await };
+                self.compiling_narrow = Some(Task::begin(compile).await);
+            }
+        }
+        Ok(self.narrow.is_some())
     }
 
     /// Returns the device with the kernels for so many points of this width, compiled if they are not,

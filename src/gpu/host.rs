@@ -287,8 +287,10 @@ where
 pub struct Fit {
     /// The vertices of what was the first simplex, and may still be; or none.
     pub first: Vec<u32>,
+    /// Whether the lattice is to be wide although the points fit a narrow one.
+    pub wide: bool,
 }
-message!(Fit { first });
+message!(Fit { first, wide });
 
 /// Where the points are on the lattice.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -316,6 +318,7 @@ where
             Some(lattice) => lattice,
             None => Lattice::fit_by(Threads::All, points)?,
         };
+        let lattice = if self.wide { lattice.widened() } else { lattice };
         let position = |i: usize| lattice.coordinates(points.get(i)).map(|c| c.value);
         let start = Some(&self.first[..])
             .filter(|first| !first.is_empty())

@@ -117,22 +117,26 @@ impl<const D: usize> Lattice<D> {
     }
 
     /// Returns the lattice of finite `points` with these bounds, computed by `threads`.
-    pub(crate) fn fit_to(threads: Threads, points: Points<'_, D>, [low, high]: [[f64; D]; 2]) -> Self {
-        let varies: [bool; D] = std::array::from_fn(|axis| low[axis] < high[axis]);
-        let fitting = |width: Width| {
-            (0..D).filter(|&axis| varies[axis]).map(|axis| largest_exponent(low[axis], high[axis], width.bits())).min()
-        };
-        let lattice = |width: Width| {
-            let exponent = fitting(width).unwrap_or(0);
-            Lattice::with_exponents(width, [exponent; D], varies, [low, high])
-        };
-        let narrow = lattice(Width::Narrow);
+    pub(crate) fn fit_to(threads: Threads, points: Points<'_, D>, bounds: [[f64; D]; 2]) -> Self {
+        let narrow = Lattice::of_bounds(Width::Narrow, bounds);
         let is_exact = |p| !narrow.rounds(p);
         let all_exact = |range| points.range(range).iter().all(is_exact);
         // Other threads need not wake up where one of the first points decides.
         let is_narrow = all_exact(0..points.len().min(FEW))
             && parallel::map_ranges(threads, points.len(), all_exact).into_iter().all(|exact| exact);
-        if is_narrow { narrow } else { lattice(Width::Wide) }
+        if is_narrow { narrow } else { narrow.widened() }
+    }
+
+    /// Returns the wide lattice of the same points.
+    pub(crate) fn widened(&self) -> Self {
+        Lattice::of_bounds(Width::Wide, self.bounds)
+    }
+
+    fn of_bounds(width: Width, [low, high]: [[f64; D]; 2]) -> Self {
+        let varies: [bool; D] = std::array::from_fn(|axis| low[axis] < high[axis]);
+        let fitting = |axis: usize| largest_exponent(low[axis], high[axis], width.bits());
+        let exponent = (0..D).filter(|&axis| varies[axis]).map(fitting).min().unwrap_or(0);
+        Lattice::with_exponents(width, [exponent; D], varies, [low, high])
     }
 
     fn with_exponents(width: Width, exponents: [i32; D], varies: [bool; D], bounds: [[f64; D]; 2]) -> Self {

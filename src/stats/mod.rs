@@ -189,6 +189,12 @@ pub enum Fallback {
         /// The number of points from which on the GPU would have been used.
         least: usize,
     },
+    /// The CPU triangulates so few points before the GPU could begin, whose kernels are not compiled yet.
+    #[error("{points} points take the CPU less time than it takes to compile the kernels for the GPU")]
+    Compiling {
+        /// The number of points of the input.
+        points: usize,
+    },
     /// There is no GPU, or it cannot be opened.
     #[error("{0}")]
     NoGpu(Error),
@@ -224,6 +230,7 @@ impl Fallback {
     pub fn name(&self) -> &'static str {
         match self {
             Fallback::FewPoints { .. } => "few-points",
+            Fallback::Compiling { .. } => "compiling",
             Fallback::NoGpu(_) => "no-gpu",
             Fallback::SoftwareGpu(_) => "software-gpu",
             Fallback::GpuFailed(_) => "gpu-failed",

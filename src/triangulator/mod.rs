@@ -1,6 +1,8 @@
 //! Triangulations with options, on the CPU or the GPU.
 
 #[cfg(feature = "gpu")]
+mod crossing;
+#[cfg(feature = "gpu")]
 mod device;
 mod editable;
 mod edits;
@@ -21,8 +23,6 @@ use no_device::{Choice, SharedDevice};
 use shared_device::{SharedDevice, shared};
 #[cfg(feature = "gpu")]
 use state::Choice;
-#[cfg(feature = "gpu")]
-pub use state::{MIN_POINTS_2D, MIN_POINTS_3D};
 
 #[cfg(feature = "gpu")]
 use crate::gpu::{AdapterChoice, Gpu};

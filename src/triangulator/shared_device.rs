@@ -14,15 +14,16 @@ use crate::{
     input::points::Points,
     mesh::MeshInfo,
     options::Options,
-    parallel, platform,
-    stats::{Fallback, Phase, Restart, UpdateStats},
+    parallel,
+    platform::{self, Instant},
+    stats::{Fallback, Phase, Restart, Stats, UpdateStats},
     triangulator::{
-        state::{Choice, State},
+        state::{Choice, Input, Setup, State, millis},
         wait::CANNOT_WAIT,
     },
 };
 use async_lock::Mutex;
-use std::sync::Arc;
+use std::{num::NonZeroUsize, sync::Arc};
 
 #[cfg(target_arch = "wasm32")]
 mod web;
@@ -31,7 +32,7 @@ mod web;
 /// others wait for it.
 #[derive(Debug, Default)]
 pub(super) struct SharedDevice {
-    adapter: AdapterChoice,
+    setup: Setup,
     /// Whether the device was the caller's from the beginning.
     is_callers: bool,
     /// Whether an adapter was chosen nevertheless.
@@ -97,7 +98,7 @@ where
         }
         let device = self.device;
         let mut state = device.state.lock().await;
-        let gpu = state.device(&device.adapter).await?;
+        let gpu = state.device(&device.setup.adapter).await?;
         let result = mesh.into_device(&gpu).await;
         state.forget_if_lost(&result);
         result
@@ -115,14 +116,18 @@ fn check_count<const D: usize>(points: Points<'_, D>, moved: Option<&DeviceMesh<
 impl SharedDevice {
     /// Creates the state for a device of this adapter, in place of this state.
     pub(super) fn with_adapter(&self, adapter: AdapterChoice) -> Self {
-        SharedDevice { adapter, is_contradictory: self.is_callers, ..SharedDevice::default() }
+        let setup = Setup { adapter, ..Setup::default() };
+        SharedDevice { setup, is_contradictory: self.is_callers, ..SharedDevice::default() }
     }
 
     /// Creates the state for the caller's device. When that is lost, the default adapter replaces
     /// it.
     pub(super) fn from_gpu(gpu: Gpu) -> Self {
+        let setup = Setup::default();
+        // Whoever gives a software device wants it to be used.
+        setup.known.set_learning(!gpu.adapter().software);
         let state = State { caller_supplied: Some(gpu), ..State::default() };
-        SharedDevice { is_callers: true, state: Mutex::new(state), ..SharedDevice::default() }
+        SharedDevice { setup, is_callers: true, state: Mutex::new(state), ..SharedDevice::default() }
     }
 
     /// Returns what calls that block use: where nobody can wait for a GPU, a state without one.
@@ -146,7 +151,7 @@ impl SharedDevice {
     /// Opens the device unless it is open.
     pub(super) async fn open(&self) -> Result<(), Error> {
         self.check()?;
-        self.state.lock().await.device(&self.adapter).await?;
+        self.state.lock().await.device(&self.setup.adapter).await?;
         Ok(())
     }
 
@@ -154,7 +159,7 @@ impl SharedDevice {
     pub(super) async fn gpu(&self) -> Result<Gpu, Error> {
         self.check()?;
         let mut state = self.state.lock().await;
-        Ok(state.open::<3>(&self.adapter).await?.gpu().clone())
+        Ok(state.open::<3>(&self.setup).await?.gpu().clone())
     }
 
     /// Gives the device back now rather than with the last reference to it. The next run reopens
@@ -220,7 +225,7 @@ impl SharedDevice {
         if !bytes.is_multiple_of(point_bytes) {
             return Err(Error::NotWholePoints { length: (bytes / 4) as usize, dimension: D });
         }
-        let gpu = self.state.lock().await.device(&self.adapter).await?;
+        let gpu = self.state.lock().await.device(&self.setup.adapter).await?;
         let mut array = Vec::new();
         let target = with_len::<[f32; D]>(&mut array, (bytes / point_bytes) as usize)?;
         Readback::default().read_into(&gpu, vec![(points, target)]).await?;
@@ -240,11 +245,11 @@ impl SharedDevice {
     {
         self.check()?;
         match options.backend {
-            Backend::Cpu => to.deliver(MadeMesh::Host(cpu::delaunay(points, options)?), None).await,
+            Backend::Cpu => to.deliver(MadeMesh::Host(self.by_cpu(points, options)?), None).await,
             Backend::Gpu => {
                 let mut state = self.state.lock().await;
-                state.open::<D>(&self.adapter).await?;
-                run_engine(&mut state, points, options, to).await
+                state.open::<D>(&self.setup).await?;
+                self.by_gpu(&mut state, points, options, to).await
             }
             Backend::Auto => {
                 let options = &options.monotone();
@@ -252,7 +257,7 @@ impl SharedDevice {
                     Ok(result) => return result,
                     Err(why) => why,
                 };
-                let mut mesh = cpu::delaunay(points, options)?;
+                let mut mesh = self.by_cpu(points, options)?;
                 mesh.stats_mut().fallback = Some(why);
                 to.deliver(MadeMesh::Host(mesh), None).await
             }
@@ -269,43 +274,60 @@ impl SharedDevice {
     where
         Dimension<D>: Choice<D>,
     {
-        let min_points = Dimension::<D>::MIN_POINTS;
-        if points.len() < min_points {
-            return Err(Fallback::FewPoints { points: points.len(), least: min_points });
-        }
+        let input = Input { points: points.len(), threads: options.threads.map(NonZeroUsize::get) };
         let mut state = self.state.lock().await;
-        state.open_if_it_pays::<D>(&self.adapter, points.len()).await?;
-        match run_engine(&mut state, points, options, to).await {
+        state.open_if_it_pays::<D>(&self.setup, input).await?;
+        match self.by_gpu(&mut state, points, options, to).await {
             Err(error) if error.is_of_the_gpu() => Err(Fallback::GpuFailed(error)),
             result => Ok(result),
         }
     }
-}
 
-/// Runs the GPU engine, which is open. If its device gets lost, the next run has to open
-/// another.
-async fn run_engine<const D: usize, L: Deliver<D>>(
-    state: &mut State,
-    points: Points<'_, D>,
-    options: &Options,
-    to: &mut L,
-) -> Result<L::Output, Error>
-where
-    Dimension<D>: Choice<D>,
-{
-    let Some(engine) = &mut Dimension::<D>::slot(state).engine else {
-        return Err(Error::NoAdapter { reason: "it is not open".to_owned() });
-    };
-    let options = &options.monotone();
-    let result = async {
-        let mesh = engine.make(points, options, to.destination()).await?;
-        let delivered = to.deliver(mesh, Some(engine.gpu().clone())).await?;
-        options.report(Phase::Finish, 1.0)?;
-        Ok(delivered)
-    };
-    let result = result.await;
-    state.forget_if_lost(&result);
-    result
+    /// Returns the mesh of the CPU engine, and notes how long it takes.
+    fn by_cpu<const D: usize>(&self, points: Points<'_, D>, options: &Options) -> Result<MeshOf<D>, Error>
+    where
+        Dimension<D>: Choice<D>,
+    {
+        let began = Instant::now();
+        let mesh = cpu::delaunay(points, options)?;
+        if options.threads.is_none() {
+            self.setup.known.of::<D>().note_cpu(points.len(), millis(began));
+        }
+        Ok(mesh)
+    }
+
+    /// Delivers the mesh of the GPU engine, which is open, and notes how long it takes. If its device gets lost, the next
+    /// run has to open another.
+    async fn by_gpu<const D: usize, L: Deliver<D>>(
+        &self,
+        state: &mut State,
+        points: Points<'_, D>,
+        options: &Options,
+        to: &mut L,
+    ) -> Result<L::Output, Error>
+    where
+        Dimension<D>: Choice<D>,
+    {
+        let Some(engine) = &mut Dimension::<D>::slot(state).engine else {
+            return Err(Error::NoAdapter { reason: "it is not open".to_owned() });
+        };
+        let began = Instant::now();
+        let options = &options.monotone();
+        let result = async {
+            let mut mesh = engine.make(points, options, to.destination()).await?;
+            let Stats { fallback, update, trace, .. } = mesh.stats_mut();
+            let is_usual = fallback.is_none() && update.is_none() && trace.is_none();
+            let delivered = to.deliver(mesh, Some(engine.gpu().clone())).await?;
+            options.report(Phase::Finish, 1.0)?;
+            if is_usual {
+                self.setup.known.of::<D>().note_gpu(points.len(), millis(began));
+            }
+            Ok(delivered)
+        };
+        let result = result.await;
+        state.forget_if_lost(&result);
+        result
+    }
 }
 
 /// Shares a device among clones.

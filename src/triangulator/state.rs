@@ -1,6 +1,7 @@
 //! The device that clones of a triangulator share, with what is compiled for it, and when
 //! [`Backend::Auto`](crate::Backend::Auto) takes it.
 
+use super::crossing::Crossing;
 use crate::{
     dimension::Dimension,
     error::Error,
@@ -10,32 +11,14 @@ use crate::{
         engine::{Complete, GpuEngine},
         phase1::Finish,
     },
+    platform::{
+        Instant,
+        gpu::{OPENING, PRIORS, Task},
+        records,
+    },
     stats::Fallback,
 };
-
-/// The number of points in 3D from which on [`Backend::Auto`](crate::Backend::Auto) takes the GPU engine if it is open.
-///
-/// A bound, measured on one NVIDIA H200 and the Xeon beside it: the GPU engine takes 4.2 ms for 10,000 uniform points, and
-/// 15 in Chromium (2026-11-28), hardly less for fewer. The CPU engine takes at least 2.0 µs per point with one thread, and
-/// 4.2 in Chromium; with 4 and with 16 threads it takes longer than the GPU from 2,000 points on (2026-11-24). The rest is
-/// for devices that take longer to start.
-pub const MIN_POINTS_3D: usize = 6_000;
-
-/// The number of points in 3D that the CPU engine triangulates in the time that it takes to open
-/// the GPU and compile its kernels: 188 and 74 ms on the same machine, against 245 ms for 100,000
-/// points. [`Backend::Auto`](crate::Backend::Auto) opens it when it has seen so many in all that the GPU would have
-/// taken, so opening never costs more than was lost by not having done so.
-pub const OPENING_POINTS_3D: usize = 100_000;
-
-/// The number of points in 2D from which on [`Backend::Auto`](crate::Backend::Auto) takes the GPU engine if it is open:
-/// on the same machine (2026-11-22), the GPU engine takes 8 ms
-/// for 50,000 points, and the CPU engine 0.43 µs per point, so it is no faster from 19,000 points
-/// on.
-pub const MIN_POINTS_2D: usize = 30_000;
-
-/// The number of points in 2D that the CPU engine triangulates while the GPU is opened and its
-/// kernels compiled: 188 and 52 ms, at 0.43 µs per point.
-pub const OPENING_POINTS_2D: usize = 560_000;
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// The device, and what is compiled for it.
 #[derive(Debug, Default)]
@@ -52,6 +35,28 @@ pub struct State {
     pub(super) unusable: Option<Fallback>,
 }
 
+/// A GPU engine whose kernels are being compiled.
+#[derive(Debug)]
+struct Opening<const D: usize>
+where
+    Dimension<D>: Finish<D>,
+{
+    began: Instant,
+    task: Task<Result<GpuEngine<D>, Error>>,
+}
+
+impl<const D: usize> Opening<D>
+where
+    Dimension<D>: Choice<D>,
+{
+    /// Estimates how long it still takes, if it takes so many milliseconds in all.
+    fn milliseconds_left(&mut self, in_all: f64) -> f64 {
+        let passed = millis(self.began);
+        // What takes longer than the last time is not expected to end at once.
+        if self.task.is_done() { 0.0 } else { (in_all - passed).max(passed / 4.0) }
+    }
+}
+
 #[derive(Debug)]
 pub struct Slot<const D: usize>
 where
@@ -59,8 +64,10 @@ where
 {
     /// The GPU engine, while it is open.
     pub(super) engine: Option<GpuEngine<D>>,
-    /// The points of the inputs so far that it would have been taken for, had it been open.
-    points_seen: usize,
+    /// What opens it, and since when, while that is going on beside other work.
+    opening: Option<Opening<D>>,
+    /// The milliseconds that runs so far would have been faster with it.
+    lost: f64,
 }
 
 impl<const D: usize> Default for Slot<D>
@@ -68,7 +75,59 @@ where
     Dimension<D>: Finish<D>,
 {
     fn default() -> Self {
-        Slot { engine: None, points_seen: 0 }
+        Slot { engine: None, opening: None, lost: 0.0 }
+    }
+}
+
+/// What is known of an input before it is triangulated.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Input {
+    pub(super) points: usize,
+    /// The number of threads of the CPU engine, if it was set.
+    pub(super) threads: Option<usize>,
+}
+
+/// Returns the milliseconds since an instant.
+pub(super) fn millis(since: Instant) -> f64 {
+    1e3 * (Instant::now() - since).as_secs_f64()
+}
+
+/// What opens the device, and what is known of it.
+#[derive(Debug, Default)]
+pub(super) struct Setup {
+    pub(super) adapter: AdapterChoice,
+    pub(super) known: Known,
+    /// Whether the CPU engine makes meshes while kernels are compiled.
+    pub(super) compiles_meanwhile: bool,
+}
+
+/// What is known of the speed of both engines.
+#[derive(Debug)]
+pub struct Known {
+    d3: Mutex<Crossing>,
+    d2: Mutex<Crossing>,
+}
+
+impl Default for Known {
+    fn default() -> Self {
+        let [d3, d2] = std::array::from_fn(|i| Mutex::new(Crossing::new(PRIORS[i], OPENING[i])));
+        Known { d3, d2 }
+    }
+}
+
+impl Known {
+    /// Sets whether what runs take is noted.
+    pub(super) fn set_learning(&self, learns: bool) {
+        self.of::<3>().learns = learns;
+        self.of::<2>().learns = learns;
+    }
+
+    /// Returns what is known of a dimension.
+    pub(super) fn of<const D: usize>(&self) -> MutexGuard<'_, Crossing>
+    where
+        Dimension<D>: Choice<D>,
+    {
+        Dimension::<D>::crossing(self).lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
@@ -77,41 +136,47 @@ pub trait Choice<const D: usize>: Complete<D> + MeshArrays<D>
 where
     Dimension<D>: Complete<D>,
 {
-    const MIN_POINTS: usize;
-    const OPENING_POINTS: usize;
-
     fn slot(state: &mut State) -> &mut Slot<D>;
+    fn crossing(known: &Known) -> &Mutex<Crossing>;
 }
 
 impl Choice<3> for Dimension<3> {
-    const MIN_POINTS: usize = MIN_POINTS_3D;
-    const OPENING_POINTS: usize = OPENING_POINTS_3D;
-
     fn slot(state: &mut State) -> &mut Slot<3> {
         &mut state.d3
+    }
+
+    fn crossing(known: &Known) -> &Mutex<Crossing> {
+        &known.d3
     }
 }
 
 impl Choice<2> for Dimension<2> {
-    const MIN_POINTS: usize = MIN_POINTS_2D;
-    const OPENING_POINTS: usize = OPENING_POINTS_2D;
-
     fn slot(state: &mut State) -> &mut Slot<2> {
         &mut state.d2
+    }
+
+    fn crossing(known: &Known) -> &Mutex<Crossing> {
+        &known.d2
     }
 }
 
 impl State {
     /// Returns the GPU engine, opened if it is not.
-    pub(super) async fn open<const D: usize>(&mut self, adapter: &AdapterChoice) -> Result<&mut GpuEngine<D>, Error>
+    pub(super) async fn open<const D: usize>(&mut self, setup: &Setup) -> Result<&mut GpuEngine<D>, Error>
     where
         Dimension<D>: Choice<D>,
     {
-        let engine = match Dimension::<D>::slot(self).engine.take() {
-            Some(engine) => engine,
-            None => GpuEngine::new(self.device(adapter).await?).await?,
-        };
-        Ok(Dimension::<D>::slot(self).engine.insert(engine))
+        self.begin_opening::<D>(setup).await?;
+        let slot = Dimension::<D>::slot(self);
+        if let Some(Opening { task, began }) = slot.opening.take() {
+            let mut engine = task.result().await?;
+            if setup.compiles_meanwhile {
+                engine.compile_meanwhile();
+            }
+            slot.engine = Some(engine);
+            setup.known.of::<D>().note_compiling(millis(began));
+        }
+        slot.engine.as_mut().ok_or_else(|| Error::NoAdapter { reason: "it is not open".to_owned() })
     }
 
     /// Returns the device, opened if it is not.
@@ -125,16 +190,15 @@ impl State {
     /// Forgets the device that was opened, and what was compiled.
     pub(super) fn close(&mut self) {
         self.opened = None;
-        self.d3.engine = None;
-        self.d2.engine = None;
+        self.d3 = Slot::default();
+        self.d2 = Slot::default();
     }
 
-    /// Opens the GPU engine for an input of `points` points if it is not open, or says why not to
-    /// take it.
+    /// Opens the GPU engine if it is to make the mesh of this input, or says why the CPU engine is.
     pub(super) async fn open_if_it_pays<const D: usize>(
         &mut self,
-        adapter: &AdapterChoice,
-        points: usize,
+        setup: &Setup,
+        input: Input,
     ) -> Result<(), Fallback>
     where
         Dimension<D>: Choice<D>,
@@ -145,31 +209,65 @@ impl State {
         if let Some(gpu) = &self.opened {
             self.check_usable(gpu)?;
         }
+        let (gain, compiling) = {
+            let known = setup.known.of::<D>();
+            let [cpu, gpu] = known.estimates(input.points, input.threads);
+            if cpu <= gpu {
+                return Err(Fallback::FewPoints { points: input.points, least: known.least(input.threads) });
+            }
+            (cpu - gpu, known.compiling())
+        };
         if Dimension::<D>::slot(self).engine.is_some() {
             return Ok(());
         }
-        let missing = Dimension::<D>::OPENING_POINTS.saturating_sub(Dimension::<D>::slot(self).points_seen);
-        if points < missing && self.caller_supplied.is_none() {
-            Dimension::<D>::slot(self).points_seen += points;
-            return Err(Fallback::FewPoints { points, least: missing });
-        }
-        let opened = match self.device(adapter).await {
-            Ok(gpu) => match self.check_usable(&gpu) {
-                Ok(()) => GpuEngine::new(gpu).await.map_err(Fallback::NoGpu),
-                Err(why) => Err(why),
-            },
-            Err(error) => Err(Fallback::NoGpu(error)),
-        };
-        match opened {
-            Ok(engine) => {
-                Dimension::<D>::slot(self).engine = Some(engine);
-                Ok(())
+        let early = Fallback::Compiling { points: input.points };
+        if !setup.compiles_meanwhile && self.caller_supplied.is_none() {
+            // Opening never costs more than was lost by not having done so.
+            let slot = Dimension::<D>::slot(self);
+            slot.lost += gain;
+            if slot.lost < compiling {
+                return Err(early);
             }
+        }
+        let opened = async {
+            let gpu = self.device(&setup.adapter).await.map_err(Fallback::NoGpu)?;
+            self.check_usable(&gpu)?;
+            if setup.compiles_meanwhile {
+                self.begin_opening::<D>(setup).await.map_err(Fallback::NoGpu)?;
+                let left = Dimension::<D>::slot(self).opening.as_mut().map(|opening| opening.milliseconds_left(compiling));
+                if left.is_some_and(|left| gain < left) {
+                    return Ok(false);
+                }
+            }
+            self.open::<D>(setup).await.map_err(Fallback::NoGpu)?;
+            Ok(true)
+        };
+        match opened.await {
+            Ok(true) => Ok(()),
+            Ok(false) => Err(early),
             Err(why) => {
                 self.opened = None;
                 Err(self.unusable.insert(why).clone())
             }
         }
+    }
+
+    /// Opens the device, unless it is open, and has it compile the kernels beside other work.
+    pub(super) async fn begin_opening<const D: usize>(&mut self, setup: &Setup) -> Result<(), Error>
+    where
+        Dimension<D>: Choice<D>,
+    {
+        let slot = Dimension::<D>::slot(self);
+        if slot.engine.is_none() && slot.opening.is_none() {
+            let began = Instant::now();
+            let gpu = self.device(&setup.adapter).await?;
+            if let Some(name) = records::name(gpu.adapter(), D) {
+                setup.known.of::<D>().recall(name);
+            }
+            let task = Task::begin(GpuEngine::new(gpu)).await;
+            Dimension::<D>::slot(self).opening = Some(Opening { began, task });
+        }
+        Ok(())
     }
 
     /// Forgets the device if `result` says that it is lost: the next run opens another.

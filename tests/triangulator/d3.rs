@@ -2,7 +2,7 @@
 
 use crate::{agree, clouds, degenerate, motions, open, same, triangulate};
 use gdel::{
-    Error, Outputs,
+    Backend, Error, Outputs,
     internals::{
         Options,
         d3::generate::{Distribution3, generate3d},
@@ -216,4 +216,23 @@ proptest! {
     fn mixed_scales(points in prop::collection::vec(prop::array::uniform3((-4i32..5, -60i32..2).prop_map(|(m, e)| f64::from(m) * 2f64.powi(e))), 5..60)) {
         same(&points, &triangulate(&points));
     }
+}
+
+/// In browsers, the first narrow input does not wait for kernels.
+#[test]
+fn the_wide_kernels_serve_until_the_narrow_ones_are_compiled() {
+    let mut engine = crate::open();
+    engine.compile_meanwhile();
+    let grid = clouds::grid(12);
+    // Half of the points twice, and far from the origin.
+    let shifted: Vec<[f64; 3]> = grid.iter().chain(&grid[..864]).map(|p| p.map(|x| x + 4_000_000.0)).collect();
+    let mut exact = Vec::new();
+    for points in [&grid, &shifted, &grid] {
+        let mesh = block_on(engine.triangulate(points.into(), &Options::default())).expect("triangulates");
+        assert_eq!((mesh.stats.backend, &mesh.stats.fallback), (Backend::Gpu, &None));
+        same(points, &mesh);
+        exact.push(mesh.stats.gpu.expect("the GPU made it").exact_tests);
+    }
+    // Where all points are of a grid, the wide arithmetic has more steps: the first run had it, the last one not.
+    assert_ne!(exact[0], exact[2]);
 }

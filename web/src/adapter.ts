@@ -3,6 +3,7 @@
 import type { Coordinates } from './arrays.js';
 import { type PlainError, toPlainError } from './errors.js';
 import type { CoreInfo } from './protocol.js';
+import type { Speed } from './speed.js';
 import type { AdapterInfo, Backend } from './types.js';
 
 /** What is used of a GPU object. */
@@ -64,9 +65,13 @@ export class BackendChoice {
   }
 
   /** Returns what `backend` uses for these points, or null where it is the CPU without looking for an adapter. */
-  decide(backend: Backend, { length }: Coordinates, least: number): Promise<CoreInfo> | null {
-    const isCpu = backend === 'cpu' || (backend === 'auto' && length < least);
-    return isCpu ? null : this.choose(backend);
+  async decide(backend: Backend, { length }: Coordinates, speed: Speed): Promise<CoreInfo | null> {
+    if (backend === 'cpu' || (backend === 'auto' && length < speed.least)) return null;
+    const info = await this.choose(backend);
+    if (info.backend === 'cpu') return info;
+    void speed.recall(info.adapter!);
+    const fallback = backend === 'auto' && (await speed.whyCpu(length));
+    return fallback ? { ...info, backend: 'cpu', fallback } : info;
   }
 }
 

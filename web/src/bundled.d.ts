@@ -9,6 +9,9 @@ type MakeGlue<Glue> = (globalThis: object) => Glue;
 /** Whether this code is bundled for a worker, which never drives the device of another thread. */
 declare const IN_WORKER: boolean;
 
+/** The version of the package. */
+declare const VERSION: string;
+
 declare module 'glue:d3' {
   const makeGlue: MakeGlue<typeof import('../pkg/d3/gdel.js')>;
   export default makeGlue;

@@ -11,8 +11,16 @@ import type { Made } from './meshes.js';
 import type { Tasks } from './protocol.js';
 import { Runner } from './running.js';
 
-const KIND: Kind = {
+type Glue = ReturnType<typeof makeGlue>;
+
+const KIND: Kind<Glue> = {
   task: 'delaunay2d',
+  speed: (triangulator) => ({
+    least: () => triangulator.least2d(),
+    whyCpu: (points) => triangulator.why_cpu2d(points),
+    known: () => triangulator.known2d(),
+    recall: (known) => triangulator.recall2d(known),
+  }),
   dimension: 2,
   arrays: ['triangles', 'halfedges', 'hull'],
   corners: 3,
@@ -36,16 +44,13 @@ export function openCore(module: WebAssembly.Module, uses: Uses = {}): Core {
       delaunay2d(given, control, helper) {
         const args = { ...given, outputs: [...KIND.arrays, 'duplicateOf'] };
         const { points, vertexSimplex = false } = args;
-        const least = 2 * glue.min_gpu_points_2d();
         if (driver && helper)
           return driver.run(args, control, helper, {
-            least,
             begin: (...to) => triangulator.drive2d(...to),
             room: ([triangles, hull], { duplicateOf, dimension }) =>
               triangulator.room2d(triangles, hull, duplicateOf!, dimension!),
           });
         return runner.run(args, control, {
-          least,
           large: 2,
           triangulate: ({ backend, onDevice, take, report }): Promise<Made> =>
             triangulator.delaunay2d(points, backend, vertexSimplex, onDevice, take, report),

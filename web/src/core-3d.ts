@@ -14,8 +14,16 @@ import type { CoreInfo, Tasks } from './protocol.js';
 import { Runner } from './running.js';
 import type { Backend, Output } from './types.js';
 
-const KIND: Kind = {
+type Glue = ReturnType<typeof makeGlue>;
+
+const KIND: Kind<Glue> = {
   task: 'delaunay3d',
+  speed: (triangulator) => ({
+    least: () => triangulator.least3d(),
+    whyCpu: (points) => triangulator.why_cpu3d(points),
+    known: () => triangulator.known3d(),
+    recall: (known) => triangulator.recall3d(known),
+  }),
   dimension: 3,
   arrays: ['tetrahedra', 'neighbors', 'hull'],
   corners: 4,
@@ -34,7 +42,7 @@ export function openCore(module: WebAssembly.Module, uses: Uses = {}): Core {
     const info = await choice.choose(backend);
     if (info.backend === 'cpu') return info;
     try {
-      await triangulator.open();
+      await triangulator.open(backend === 'auto' && engine.compilesMeanwhile);
       return info;
     } catch (thrown) {
       const error = toPlainError(thrown, memory.buffer.byteLength);
@@ -52,12 +60,10 @@ export function openCore(module: WebAssembly.Module, uses: Uses = {}): Core {
       open: ({ backend }) => open(backend),
       async delaunay3d(args, control, helper) {
         const { points, outputs, vertexSimplex } = args;
-        const least = 3 * glue.min_gpu_points_3d();
         if (driver && helper) {
           const hasTrace = outputs.includes('trace');
           return withEmpty(
             await driver.run(args, control, helper, {
-              least,
               begin: (carrier, report) => triangulator.drive3d(carrier, hasTrace, report),
               room: ([tetrahedra, hull], { duplicateOf, dimension }) =>
                 triangulator.room3d(tetrahedra, hull, duplicateOf!, dimension!),
@@ -65,7 +71,6 @@ export function openCore(module: WebAssembly.Module, uses: Uses = {}): Core {
           );
         }
         const mesh = await runner.run(args, control, {
-          least,
           large: outputs.includes('neighbors') ? 2 : 1,
           triangulate: ({ backend, onDevice, take, report }): Promise<Made> => {
             const wanted = outputsFor(glue, outputs, vertexSimplex);

@@ -13,8 +13,6 @@ import type { RunArgs } from './running.js';
 import type { Output } from './types.js';
 
 export interface DriveOf {
-  /** The fewest coordinates for which an adapter is looked for. */
-  least: number;
   begin(carrier: PointCarrier, report: ReportProgress): Promise<Made>;
   /** Creates the buffers of a mesh that the caller fills. */
   room(counts: [simplices: number, hull: number], mesh: Finished): Promise<Made>;
@@ -29,9 +27,9 @@ export class Driver {
   }
 
   async run(args: RunArgs, control: Control, helper: Helper, of: DriveOf): Promise<any> {
-    const { arrayMemory, kind, choice, memory, queue } = this.#engine;
+    const { arrayMemory, kind, choice, memory, queue, speed } = this.#engine;
     const started = performance.now();
-    const info = await choice.decide(args.backend, args.points, of.least);
+    const info = await choice.decide(args.backend, args.points, speed);
     const carrier = new PointCarrier(args.points, kind.dimension, helper, queue);
     const ready = new Memory(args.spare);
     let left: Partial<CoreStats> = {};

@@ -1,6 +1,7 @@
 // What 3D and 2D runs share: an instance, its triangulator, and the meshes on the device.
 
 import { BackendChoice, type Gpu } from './adapter.js';
+import { builtin } from './builtin.js';
 import type { Uses } from './core.js';
 import type { Device, Queue } from './device.js';
 import { GpuStandIn } from './gpu-stand-in.js';
@@ -8,10 +9,12 @@ import { type Instance, instantiate } from './instance.js';
 import { ArrayMemory } from './memory.js';
 import { ResidentMeshes } from './meshes.js';
 import type { CoreInfo, CoreStats, Task } from './protocol.js';
+import { Speed, type SpeedOf } from './speed.js';
 
 /** What the dimensions differ in. */
-export interface Kind {
+export interface Kind<Glue extends AnyGlue = any> {
   task: Task;
+  speed(triangulator: InstanceType<Glue['WasmTriangulator']>): SpeedOf;
   dimension: 3 | 2;
   /** The arrays of a mesh on the device, by their numbers. */
   arrays: readonly [string, string, string];
@@ -24,7 +27,7 @@ export interface Kind {
 
 /** What the glue of both dimensions has. */
 interface AnyGlue {
-  WasmTriangulator: new () => { close(): Promise<void> };
+  WasmTriangulator: new (compilesMeanwhile: boolean) => { close(): Promise<void> };
   initSync(module: { module: WebAssembly.Module }): object;
 }
 
@@ -43,6 +46,9 @@ export class Engine<Glue extends AnyGlue = AnyGlue> {
   readonly memory: WebAssembly.Memory;
   readonly triangulator: InstanceType<Glue['WasmTriangulator']>;
   readonly choice: BackendChoice;
+  readonly speed: Speed;
+  /** Whether the CPU triangulates while kernels are compiled: Node may end meanwhile, and then crash. */
+  readonly compilesMeanwhile = !builtin('node:worker_threads');
   readonly meshes: ResidentMeshes;
   readonly arrayMemory: ArrayMemory;
   readonly device: Device | undefined;
@@ -61,7 +67,10 @@ export class Engine<Glue extends AnyGlue = AnyGlue> {
     const instance: Instance<Glue> = instantiate(makeGlue, module, scope);
     this.glue = instance.glue;
     this.memory = instance.memory;
-    this.triangulator = new this.glue.WasmTriangulator() as typeof this.triangulator;
+    this.triangulator = new this.glue.WasmTriangulator(
+      this.compilesMeanwhile,
+    ) as typeof this.triangulator;
+    this.speed = new Speed(kind.dimension, kind.speed(this.triangulator));
     this.choice = new BackendChoice(this.#gpu, this.memory);
     this.meshes = new ResidentMeshes(kind.arrays, device);
   }
@@ -74,6 +83,7 @@ export class Engine<Glue extends AnyGlue = AnyGlue> {
     stats: CoreStats,
     { info, started, readyBytes }: { info: CoreInfo | null; started: number; readyBytes: number },
   ): CoreStats {
+    this.speed.keep();
     return {
       ...stats,
       fallback: stats.fallback ?? info?.fallback ?? null,

@@ -21,8 +21,6 @@ export interface Wanted {
 }
 
 export interface RunOf {
-  /** The fewest coordinates for which an adapter is looked for. */
-  least: number;
   /** How many of the large arrays are wanted: simplices and neighbours. */
   large: number;
   triangulate(wanted: Wanted): Promise<Made>;
@@ -37,10 +35,10 @@ export class Runner {
   }
 
   async run(args: RunArgs, control: Control, of: RunOf): Promise<any> {
-    const { choice, meshes, arrayMemory } = this.#engine;
+    const { choice, meshes, arrayMemory, speed } = this.#engine;
     const started = performance.now();
     const { points, backend, resident = false, spare, key } = args;
-    const info = await choice.decide(backend, points, of.least);
+    const info = await choice.decide(backend, points, speed);
     const isOnGpu = info?.backend === 'gpu';
     if (!isOnGpu) control.onBlocking();
     const ready = new Memory(spare);

@@ -2,6 +2,8 @@
 
 #[cfg(feature = "gpu")]
 pub(crate) mod gpu;
+#[cfg(feature = "gpu")]
+pub(crate) mod records;
 #[cfg(not(feature = "threads"))]
 pub(crate) use super::single as threads;
 #[cfg(feature = "threads")]

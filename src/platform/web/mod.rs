@@ -3,6 +3,8 @@
 #[cfg(feature = "gpu")]
 pub(crate) mod gpu;
 #[cfg(feature = "gpu")]
+pub(crate) mod records;
+#[cfg(feature = "gpu")]
 mod host;
 #[cfg(feature = "gpu")]
 mod target;

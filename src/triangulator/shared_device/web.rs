@@ -15,8 +15,12 @@ use crate::{
     },
     input::points::{Points, Points2, Points3},
     options::Options,
-    stats::{Phase, Restart, Stats, UpdateStats},
-    triangulator::{Triangulator, state::Choice},
+    stats::{Fallback, Phase, Restart, Stats, UpdateStats},
+    triangulator::{
+        Triangulator,
+        shared_device::shared,
+        state::{Choice, Input, Setup},
+    },
 };
 
 /// To a function of the caller's: from where it was made, or from the device.
@@ -92,7 +96,7 @@ impl SharedDevice {
         Dimension<D>: Choice<D>,
     {
         let mut state = self.state.lock().await;
-        let engine = state.open::<D>(&self.adapter).await?;
+        let engine = state.open::<D>(&self.setup).await?;
         let options = &options.monotone();
         let driven = async {
             Ok(match engine.drive(host, options, Destination::Device(moved)).await? {
@@ -109,17 +113,92 @@ impl SharedDevice {
         result
     }
 
+    /// Says why [`Backend::Auto`](crate::Backend::Auto) has the CPU engine make the mesh of so many points, if it does.
+    async fn why_cpu<const D: usize>(&self, points: usize) -> Option<Fallback>
+    where
+        Dimension<D>: Choice<D>,
+    {
+        let input = Input { points, threads: None };
+        self.state.lock().await.open_if_it_pays::<D>(&self.setup, input).await.err()
+    }
+
+    /// Begins to compile the kernels, if the CPU engine makes meshes meanwhile, or compiles them.
+    async fn begin<const D: usize>(&self) -> Result<(), Error>
+    where
+        Dimension<D>: Choice<D>,
+    {
+        let mut state = self.state.lock().await;
+        match self.setup.compiles_meanwhile {
+            true => state.begin_opening::<D>(&self.setup).await,
+            false => state.open::<D>(&self.setup).await.map(drop),
+        }
+    }
+
     /// Creates the buffers of a mesh on the device that somebody else fills.
     pub(super) async fn room<const D: usize>(&self, lens: [usize; 2], info: MeshOf<D>) -> Result<DeviceMesh<D>, Error>
     where
         Dimension<D>: Choice<D>,
     {
-        let gpu = self.state.lock().await.device(&self.adapter).await?;
+        let gpu = self.state.lock().await.device(&self.setup.adapter).await?;
         DeviceMesh::with_room(&gpu, lens, info).await
     }
 }
 
 impl Triangulator {
+    /// Creates a triangulator. If it `compiles_meanwhile`, [`Backend::Auto`](crate::Backend::Auto) has the CPU engine make
+    /// meshes while kernels are compiled, if that is sooner.
+    #[doc(hidden)]
+    pub fn compiling_meanwhile(compiles_meanwhile: bool) -> Self {
+        let setup = Setup { compiles_meanwhile, ..Setup::default() };
+        let device = SharedDevice { setup, ..SharedDevice::default() };
+        Triangulator { device: shared(device), ..Triangulator::default() }
+    }
+
+    /// Returns the least number of points for which the GPU engine is faster.
+    #[doc(hidden)]
+    pub fn least<const D: usize>(&self) -> usize
+    where
+        Dimension<D>: Choice<D>,
+    {
+        self.device.setup.known.of::<D>().least(None)
+    }
+
+    /// Returns what is known of the speed of the device, for [`recall`](Self::recall) on a later visit.
+    #[doc(hidden)]
+    pub fn known<const D: usize>(&self) -> Vec<u32>
+    where
+        Dimension<D>: Choice<D>,
+    {
+        self.device.setup.known.of::<D>().to_words()
+    }
+
+    /// Takes over what was known on an earlier visit.
+    #[doc(hidden)]
+    pub fn recall<const D: usize>(&self, known: &[u32])
+    where
+        Dimension<D>: Choice<D>,
+    {
+        self.device.setup.known.of::<D>().merge(known);
+    }
+
+    /// Says why [`Backend::Auto`](crate::Backend::Auto) has the CPU engine make the mesh of so many points, if it does.
+    #[doc(hidden)]
+    pub async fn why_cpu<const D: usize>(&self, points: usize) -> Option<Fallback>
+    where
+        Dimension<D>: Choice<D>,
+    {
+        self.device.why_cpu::<D>(points).await
+    }
+
+    /// Begins to compile the kernels, if the CPU engine makes meshes meanwhile, or compiles them.
+    #[doc(hidden)]
+    pub async fn begin<const D: usize>(&self) -> Result<(), Error>
+    where
+        Dimension<D>: Choice<D>,
+    {
+        self.device.begin::<D>().await
+    }
+
     /// Triangulates in 3D, and has `deliver` take the mesh where it was made, or, if `resident`, on
     /// the device: [`Backend::Auto`] takes the CPU if the GPU fails before that is done. A mesh that
     /// is `resident` goes on from `moved`, the mesh of the points where they were, if there is one.

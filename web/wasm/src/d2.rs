@@ -5,7 +5,6 @@ use gdel::{
     internals::{
         Winding,
         gpu::{engine::MadeMesh, host::AnyHost},
-        triangulator::MIN_POINTS_2D,
     },
 };
 use js_sys::Function;
@@ -20,14 +19,28 @@ use crate::{
     triangulator::WasmTriangulator,
 };
 
-/// Returns the number of points from which on the backend `auto` considers the GPU in 2D.
-#[wasm_bindgen]
-pub fn min_gpu_points_2d() -> u32 {
-    MIN_POINTS_2D as u32
-}
-
 #[wasm_bindgen]
 impl WasmTriangulator {
+    /// Returns the number of points from which on the backend `auto` considers the GPU in 2D.
+    pub fn least2d(&self) -> u32 {
+        self.triangulator.least::<2>().try_into().unwrap_or(u32::MAX)
+    }
+
+    /// Returns what is known of the speed of the device in 2D.
+    pub fn known2d(&self) -> Vec<u32> {
+        self.triangulator.known::<2>()
+    }
+
+    /// Takes over what was known of it on an earlier visit.
+    pub fn recall2d(&self, known: &[u32]) {
+        self.triangulator.recall::<2>(known);
+    }
+
+    /// Says why the backend `auto` has the CPU triangulate so many points in 2D, if it does.
+    pub async fn why_cpu2d(&self, points: u32) -> Option<String> {
+        self.triangulator.why_cpu::<2>(points as usize).await.map(|why| why.to_string())
+    }
+
     /// Triangulates in 2D. With `resident`, the mesh stays on the device; else its arrays are read
     /// into what `memory` returns for a number of bytes. A mesh of the CPU has a triangle of each point if
     /// `vertex_simplex`.

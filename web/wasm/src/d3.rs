@@ -4,7 +4,6 @@ use gdel::{
     Backend, DeviceMesh3, Error, Mesh3, Triangulator,
     internals::{
         gpu::{engine::MadeMesh, host::AnyHost},
-        triangulator::MIN_POINTS_3D,
     },
 };
 use js_sys::Function;
@@ -19,18 +18,35 @@ use crate::{
     triangulator::WasmTriangulator,
 };
 
-/// Returns the number of points from which on the backend `auto` considers the GPU in 3D.
-#[wasm_bindgen]
-pub fn min_gpu_points_3d() -> u32 {
-    MIN_POINTS_3D as u32
-}
-
 #[wasm_bindgen]
 impl WasmTriangulator {
+    /// Returns the number of points from which on the backend `auto` considers the GPU in 3D.
+    pub fn least3d(&self) -> u32 {
+        self.triangulator.least::<3>().try_into().unwrap_or(u32::MAX)
+    }
+
+    /// Returns what is known of the speed of the device in 3D.
+    pub fn known3d(&self) -> Vec<u32> {
+        self.triangulator.known::<3>()
+    }
+
+    /// Takes over what was known of it on an earlier visit.
+    pub fn recall3d(&self, known: &[u32]) {
+        self.triangulator.recall::<3>(known);
+    }
+
+    /// Says why the backend `auto` has the CPU triangulate so many points in 3D, if it does.
+    pub async fn why_cpu3d(&self, points: u32) -> Option<String> {
+        self.triangulator.why_cpu::<3>(points as usize).await.map(|why| why.to_string())
+    }
+
     /// Opens the adapter that `navigator.gpu` recommends for speed, and compiles the kernels for
-    /// 3D.
-    pub async fn open(&self) -> Result<(), Thrown> {
-        self.triangulator.gpu().await?;
+    /// 3D, or, if they are compiled meanwhile, begins to.
+    pub async fn open(&self, meanwhile: bool) -> Result<(), Thrown> {
+        match meanwhile {
+            true => self.triangulator.begin::<3>().await?,
+            false => drop(self.triangulator.gpu().await?),
+        }
         Ok(())
     }
 

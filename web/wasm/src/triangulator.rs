@@ -8,16 +8,17 @@ use crate::run::reporting;
 
 /// A triangulator for any number of runs.
 #[wasm_bindgen]
-#[derive(Default)]
 pub struct WasmTriangulator {
     pub(crate) triangulator: Triangulator,
 }
 
 #[wasm_bindgen]
 impl WasmTriangulator {
+    /// Creates a triangulator. If it `compiles_meanwhile`, the backend `auto` has the CPU triangulate while
+    /// kernels are compiled, if that is sooner.
     #[wasm_bindgen(constructor)]
-    pub fn new() -> Self {
-        WasmTriangulator::default()
+    pub fn new(compiles_meanwhile: bool) -> Self {
+        WasmTriangulator { triangulator: Triangulator::compiling_meanwhile(compiles_meanwhile) }
     }
 
     /// Releases the device.

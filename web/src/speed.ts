@@ -1,0 +1,57 @@
+// What is known of the speed of a device, by which the backend is chosen.
+
+import { load, save } from './kept.js';
+import type { AdapterInfo } from './types.js';
+
+/** The functions of a dimension in WebAssembly. */
+export interface SpeedOf {
+  /** The number of points from which on a GPU is faster. */
+  least(): number;
+  /** Says why the CPU triangulates so many points, if it is sooner. */
+  whyCpu(points: number): Promise<string | undefined>;
+  known(): Uint32Array;
+  recall(known: Uint32Array): void;
+}
+
+/** Keeps what is known of the speed of a device for later visits. */
+export class Speed {
+  readonly #of: SpeedOf;
+  readonly #dimension: number;
+  #name: string | undefined;
+  #kept: Uint32Array = new Uint32Array(0);
+
+  constructor(dimension: number, of: SpeedOf) {
+    this.#dimension = dimension;
+    this.#of = of;
+  }
+
+  /** The number of coordinates from which on a GPU is faster. */
+  get least(): number {
+    return this.#dimension * this.#of.least();
+  }
+
+  /** Says why the CPU triangulates so many coordinates, if it is sooner. */
+  whyCpu(coordinates: number): Promise<string | undefined> {
+    return this.#of.whyCpu(coordinates / this.#dimension);
+  }
+
+  /** Recalls what was known of an adapter, as soon as that is read. Nobody waits for it. */
+  async recall({ vendor, architecture, device, description }: AdapterInfo): Promise<void> {
+    const { userAgent } = globalThis.navigator ?? {};
+    if (this.#name !== undefined || !globalThis.indexedDB) return;
+    const parts = [VERSION, this.#dimension, vendor, architecture, device, description, userAgent];
+    this.#name = parts.join();
+    const known = await load(this.#name);
+    if (known) this.#of.recall(known);
+    this.#kept = this.#of.known();
+  }
+
+  /** Keeps what is known now, if a run has told much. */
+  keep(): void {
+    if (this.#name === undefined) return;
+    const known = this.#of.known();
+    if (known.every((time, i) => time > 0.9 * (this.#kept[i] ?? Infinity))) return;
+    this.#kept = known;
+    void save(this.#name, known);
+  }
+}
