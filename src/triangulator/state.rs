@@ -194,62 +194,55 @@ impl State {
         self.d2 = Slot::default();
     }
 
-    /// Opens the GPU engine if it is to make the mesh of this input, or says why the CPU engine is.
-    pub(super) async fn open_if_it_pays<const D: usize>(
-        &mut self,
-        setup: &Setup,
-        input: Input,
-    ) -> Result<(), Fallback>
+    /// Says why the CPU engine is to make the mesh of this input, as far as that is known without a device.
+    pub(super) fn why_cpu<const D: usize>(&mut self, setup: &Setup, input: Input) -> Option<Fallback>
     where
         Dimension<D>: Choice<D>,
     {
-        if let Some(why) = &self.unusable {
-            return Err(why.clone());
+        if self.unusable.is_some() {
+            return self.unusable.clone();
         }
-        if let Some(gpu) = &self.opened {
-            self.check_usable(gpu)?;
+        if let Some(Err(why)) = self.opened.as_ref().map(|gpu| self.check_usable(gpu)) {
+            return Some(why);
         }
-        let (gain, compiling) = {
-            let known = setup.known.of::<D>();
-            let [cpu, gpu] = known.estimates(input.points, input.threads);
-            if cpu <= gpu {
-                return Err(Fallback::FewPoints { points: input.points, least: known.least(input.threads) });
+        let Input { points, threads } = input;
+        let known = setup.known.of::<D>();
+        let [cpu, gpu] = known.estimates(points, threads);
+        if cpu <= gpu {
+            return Some(Fallback::FewPoints { points, least: known.least(threads) });
+        }
+        let is_callers = self.caller_supplied.is_some();
+        let slot = Dimension::<D>::slot(self);
+        let left = match &mut slot.opening {
+            _ if slot.engine.is_some() => 0.0,
+            Some(opening) => opening.milliseconds_left(known.compiling()),
+            None if is_callers || setup.compiles_meanwhile => 0.0,
+            None => {
+                // Opening never costs more than was lost by not having done so.
+                slot.lost += cpu - gpu;
+                known.compiling() - slot.lost + cpu - gpu
             }
-            (cpu - gpu, known.compiling())
         };
-        if Dimension::<D>::slot(self).engine.is_some() {
-            return Ok(());
-        }
-        let early = Fallback::Compiling { points: input.points };
-        if !setup.compiles_meanwhile && self.caller_supplied.is_none() {
-            // Opening never costs more than was lost by not having done so.
-            let slot = Dimension::<D>::slot(self);
-            slot.lost += gain;
-            if slot.lost < compiling {
-                return Err(early);
-            }
+        (cpu - gpu < left).then_some(Fallback::Compiling { points })
+    }
+
+    /// Opens the GPU engine if it is to make the mesh of this input, or says why the CPU engine is.
+    pub(super) async fn open_if_it_pays<const D: usize>(&mut self, setup: &Setup, input: Input) -> Result<(), Fallback>
+    where
+        Dimension<D>: Choice<D>,
+    {
+        if let Some(why) = self.why_cpu::<D>(setup, input) {
+            return Err(why);
         }
         let opened = async {
             let gpu = self.device(&setup.adapter).await.map_err(Fallback::NoGpu)?;
             self.check_usable(&gpu)?;
-            if setup.compiles_meanwhile {
-                self.begin_opening::<D>(setup).await.map_err(Fallback::NoGpu)?;
-                let left = Dimension::<D>::slot(self).opening.as_mut().map(|opening| opening.milliseconds_left(compiling));
-                if left.is_some_and(|left| gain < left) {
-                    return Ok(false);
-                }
-            }
-            self.open::<D>(setup).await.map_err(Fallback::NoGpu)?;
-            Ok(true)
+            self.open::<D>(setup).await.map(drop).map_err(Fallback::NoGpu)
         };
-        match opened.await {
-            Ok(true) => Ok(()),
-            Ok(false) => Err(early),
-            Err(why) => {
-                self.opened = None;
-                Err(self.unusable.insert(why).clone())
-            }
-        }
+        opened.await.map_err(|why| {
+            self.opened = None;
+            self.unusable.insert(why).clone()
+        })
     }
 
     /// Opens the device, unless it is open, and has it compile the kernels beside other work.

@@ -3,7 +3,7 @@
 import type { Coordinates } from './arrays.js';
 import { type PlainError, toPlainError } from './errors.js';
 import type { CoreInfo } from './protocol.js';
-import type { Speed } from './speed.js';
+import { COMPILES_MEANWHILE, type Speed } from './speed.js';
 import type { AdapterInfo, Backend } from './types.js';
 
 /** What is used of a GPU object. */
@@ -64,13 +64,27 @@ export class BackendChoice {
     }
   }
 
+  /** Opens the device that `backend` would use. Returns what it uses then. */
+  async open(backend: Backend, speed: Speed): Promise<CoreInfo> {
+    const info = await this.choose(backend);
+    if (info.backend === 'cpu') return info;
+    try {
+      void speed.recall(info.adapter!);
+      await speed.open(backend);
+      return info;
+    } catch (thrown) {
+      const error = toPlainError(thrown, this.#memory.buffer.byteLength);
+      if (backend === 'gpu' || error.fatal) throw thrown;
+      return { ...info, backend: 'cpu', fallback: error.message };
+    }
+  }
+
   /** Returns what `backend` uses for these points, or null where it is the CPU without looking for an adapter. */
   async decide(backend: Backend, { length }: Coordinates, speed: Speed): Promise<CoreInfo | null> {
     if (backend === 'cpu' || (backend === 'auto' && length < speed.least)) return null;
-    const info = await this.choose(backend);
-    if (info.backend === 'cpu') return info;
-    void speed.recall(info.adapter!);
-    const fallback = backend === 'auto' && (await speed.whyCpu(length));
+    if (backend === 'gpu' || !COMPILES_MEANWHILE) return this.choose(backend);
+    const info = await this.open(backend, speed);
+    const fallback = info.backend === 'gpu' && speed.whyCpu(length);
     return fallback ? { ...info, backend: 'cpu', fallback } : info;
   }
 }

@@ -17,6 +17,7 @@ const KIND: Kind<Glue> = {
   task: 'delaunay2d',
   speed: (triangulator) => ({
     least: () => triangulator.least2d(),
+    open: (meanwhile) => triangulator.open2d(meanwhile),
     whyCpu: (points) => triangulator.why_cpu2d(points),
     known: () => triangulator.known2d(),
     recall: (known) => triangulator.recall2d(known),

@@ -6,13 +6,12 @@ import { blockingInstance } from './blocking.js';
 import { type Core, coreOf, type Uses } from './core.js';
 import { Driver, hosting } from './driving.js';
 import { Engine, type Kind } from './engine.js';
-import { toPlainError } from './errors.js';
 import { instantiate } from './instance.js';
 import type { Made } from './meshes.js';
 import { outputsFor, withEmpty } from './outputs.js';
-import type { CoreInfo, Tasks } from './protocol.js';
+import type { Tasks } from './protocol.js';
 import { Runner } from './running.js';
-import type { Backend, Output } from './types.js';
+import type { Output } from './types.js';
 
 type Glue = ReturnType<typeof makeGlue>;
 
@@ -20,6 +19,7 @@ const KIND: Kind<Glue> = {
   task: 'delaunay3d',
   speed: (triangulator) => ({
     least: () => triangulator.least3d(),
+    open: (meanwhile) => triangulator.open3d(meanwhile),
     whyCpu: (points) => triangulator.why_cpu3d(points),
     known: () => triangulator.known3d(),
     recall: (known) => triangulator.recall3d(known),
@@ -38,26 +38,13 @@ export function openCore(module: WebAssembly.Module, uses: Uses = {}): Core {
   const runner = new Runner(engine);
   const driver = IN_WORKER ? undefined : new Driver(engine);
 
-  async function open(backend: Backend): Promise<CoreInfo> {
-    const info = await choice.choose(backend);
-    if (info.backend === 'cpu') return info;
-    try {
-      await triangulator.open(backend === 'auto' && engine.compilesMeanwhile);
-      return info;
-    } catch (thrown) {
-      const error = toPlainError(thrown, memory.buffer.byteLength);
-      if (backend === 'gpu' || error.fatal) throw thrown;
-      return { ...info, backend: 'cpu', fallback: error.message };
-    }
-  }
-
   return coreOf({
     memory,
     dispose: () => engine.dispose(),
     free: (key) => engine.meshes.free(key),
     handlers: {
       ...hosting(glue.Session3),
-      open: ({ backend }) => open(backend),
+      open: ({ backend }) => choice.open(backend, engine.speed),
       async delaunay3d(args, control, helper) {
         const { points, outputs, vertexSimplex } = args;
         if (driver && helper) {

@@ -1,7 +1,6 @@
 // What 3D and 2D runs share: an instance, its triangulator, and the meshes on the device.
 
 import { BackendChoice, type Gpu } from './adapter.js';
-import { builtin } from './builtin.js';
 import type { Uses } from './core.js';
 import type { Device, Queue } from './device.js';
 import { GpuStandIn } from './gpu-stand-in.js';
@@ -9,7 +8,7 @@ import { type Instance, instantiate } from './instance.js';
 import { ArrayMemory } from './memory.js';
 import { ResidentMeshes } from './meshes.js';
 import type { CoreInfo, CoreStats, Task } from './protocol.js';
-import { Speed, type SpeedOf } from './speed.js';
+import { COMPILES_MEANWHILE, Speed, type SpeedOf } from './speed.js';
 
 /** What the dimensions differ in. */
 export interface Kind<Glue extends AnyGlue = any> {
@@ -47,8 +46,6 @@ export class Engine<Glue extends AnyGlue = AnyGlue> {
   readonly triangulator: InstanceType<Glue['WasmTriangulator']>;
   readonly choice: BackendChoice;
   readonly speed: Speed;
-  /** Whether the CPU triangulates while kernels are compiled: Node may end meanwhile, and then crash. */
-  readonly compilesMeanwhile = !builtin('node:worker_threads');
   readonly meshes: ResidentMeshes;
   readonly arrayMemory: ArrayMemory;
   readonly device: Device | undefined;
@@ -68,7 +65,7 @@ export class Engine<Glue extends AnyGlue = AnyGlue> {
     this.glue = instance.glue;
     this.memory = instance.memory;
     this.triangulator = new this.glue.WasmTriangulator(
-      this.compilesMeanwhile,
+      COMPILES_MEANWHILE,
     ) as typeof this.triangulator;
     this.speed = new Speed(kind.dimension, kind.speed(this.triangulator));
     this.choice = new BackendChoice(this.#gpu, this.memory);

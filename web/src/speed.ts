@@ -1,14 +1,20 @@
 // What is known of the speed of a device, by which the backend is chosen.
 
+import { builtin } from './builtin.js';
 import { load, save } from './kept.js';
-import type { AdapterInfo } from './types.js';
+import type { AdapterInfo, Backend } from './types.js';
+
+/** Whether the CPU triangulates while kernels are compiled: Node may end meanwhile, and then crash. */
+export const COMPILES_MEANWHILE = !builtin('node:worker_threads');
 
 /** The functions of a dimension in WebAssembly. */
 export interface SpeedOf {
   /** The number of points from which on a GPU is faster. */
   least(): number;
+  /** Opens the device, and compiles the kernels, or begins to. */
+  open(meanwhile: boolean): Promise<void>;
   /** Says why the CPU triangulates so many points, if it is sooner. */
-  whyCpu(points: number): Promise<string | undefined>;
+  whyCpu(points: number): string | undefined;
   known(): Uint32Array;
   recall(known: Uint32Array): void;
 }
@@ -31,8 +37,13 @@ export class Speed {
   }
 
   /** Says why the CPU triangulates so many coordinates, if it is sooner. */
-  whyCpu(coordinates: number): Promise<string | undefined> {
+  whyCpu(coordinates: number): string | undefined {
     return this.#of.whyCpu(coordinates / this.#dimension);
+  }
+
+  /** Opens the device. Unless that is required, nobody waits for its kernels. */
+  open(backend: Backend): Promise<void> {
+    return this.#of.open(backend === 'auto' && COMPILES_MEANWHILE);
   }
 
   /** Recalls what was known of an adapter, as soon as that is read. Nobody waits for it. */

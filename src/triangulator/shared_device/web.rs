@@ -113,22 +113,14 @@ impl SharedDevice {
         result
     }
 
-    /// Says why [`Backend::Auto`](crate::Backend::Auto) has the CPU engine make the mesh of so many points, if it does.
-    async fn why_cpu<const D: usize>(&self, points: usize) -> Option<Fallback>
+    /// Opens the device, and compiles the kernels, or begins to.
+    async fn open_for<const D: usize>(&self, meanwhile: bool) -> Result<(), Error>
     where
         Dimension<D>: Choice<D>,
     {
-        let input = Input { points, threads: None };
-        self.state.lock().await.open_if_it_pays::<D>(&self.setup, input).await.err()
-    }
-
-    /// Begins to compile the kernels, if the CPU engine makes meshes meanwhile, or compiles them.
-    async fn begin<const D: usize>(&self) -> Result<(), Error>
-    where
-        Dimension<D>: Choice<D>,
-    {
+        self.check()?;
         let mut state = self.state.lock().await;
-        match self.setup.compiles_meanwhile {
+        match meanwhile {
             true => state.begin_opening::<D>(&self.setup).await,
             false => state.open::<D>(&self.setup).await.map(drop),
         }
@@ -150,8 +142,8 @@ impl Triangulator {
     #[doc(hidden)]
     pub fn compiling_meanwhile(compiles_meanwhile: bool) -> Self {
         let setup = Setup { compiles_meanwhile, ..Setup::default() };
-        let device = SharedDevice { setup, ..SharedDevice::default() };
-        Triangulator { device: shared(device), ..Triangulator::default() }
+        let device = shared(SharedDevice { setup, ..SharedDevice::default() });
+        Triangulator { options: Options::default(), device }
     }
 
     /// Returns the least number of points for which the GPU engine is faster.
@@ -181,22 +173,28 @@ impl Triangulator {
         self.device.setup.known.of::<D>().merge(known);
     }
 
-    /// Says why [`Backend::Auto`](crate::Backend::Auto) has the CPU engine make the mesh of so many points, if it does.
+    /// Says why [`Backend::Auto`](crate::Backend::Auto) has the CPU engine make the mesh of so many points, if it does. A
+    /// device that is at work is not asked.
     #[doc(hidden)]
-    pub async fn why_cpu<const D: usize>(&self, points: usize) -> Option<Fallback>
+    pub fn why_cpu<const D: usize>(&self, points: usize) -> Option<Fallback>
     where
         Dimension<D>: Choice<D>,
     {
-        self.device.why_cpu::<D>(points).await
+        let mut state = self.device.state.try_lock()?;
+        state.why_cpu::<D>(&self.device.setup, Input { points, threads: None })
     }
 
-    /// Begins to compile the kernels, if the CPU engine makes meshes meanwhile, or compiles them.
+    /// Opens the device, and compiles the kernels, or, if that goes on `meanwhile`, begins to.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Triangulator::device`].
     #[doc(hidden)]
-    pub async fn begin<const D: usize>(&self) -> Result<(), Error>
+    pub async fn open_for<const D: usize>(&self, meanwhile: bool) -> Result<(), Error>
     where
         Dimension<D>: Choice<D>,
     {
-        self.device.begin::<D>().await
+        self.device.open_for::<D>(meanwhile).await
     }
 
     /// Triangulates in 3D, and has `deliver` take the mesh where it was made, or, if `resident`, on

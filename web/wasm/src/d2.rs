@@ -37,8 +37,14 @@ impl WasmTriangulator {
     }
 
     /// Says why the backend `auto` has the CPU triangulate so many points in 2D, if it does.
-    pub async fn why_cpu2d(&self, points: u32) -> Option<String> {
-        self.triangulator.why_cpu::<2>(points as usize).await.map(|why| why.to_string())
+    pub fn why_cpu2d(&self, points: u32) -> Option<String> {
+        self.triangulator.why_cpu::<2>(points as usize).map(|why| why.to_string())
+    }
+
+    /// Opens the adapter that `navigator.gpu` recommends for speed, and compiles the kernels for
+    /// 2D, or, if that goes on `meanwhile`, begins to.
+    pub async fn open2d(&self, meanwhile: bool) -> Result<(), Thrown> {
+        Ok(self.triangulator.open_for::<2>(meanwhile).await?)
     }
 
     /// Triangulates in 2D. With `resident`, the mesh stays on the device; else its arrays are read

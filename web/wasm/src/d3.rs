@@ -36,18 +36,14 @@ impl WasmTriangulator {
     }
 
     /// Says why the backend `auto` has the CPU triangulate so many points in 3D, if it does.
-    pub async fn why_cpu3d(&self, points: u32) -> Option<String> {
-        self.triangulator.why_cpu::<3>(points as usize).await.map(|why| why.to_string())
+    pub fn why_cpu3d(&self, points: u32) -> Option<String> {
+        self.triangulator.why_cpu::<3>(points as usize).map(|why| why.to_string())
     }
 
     /// Opens the adapter that `navigator.gpu` recommends for speed, and compiles the kernels for
-    /// 3D, or, if they are compiled meanwhile, begins to.
-    pub async fn open(&self, meanwhile: bool) -> Result<(), Thrown> {
-        match meanwhile {
-            true => self.triangulator.begin::<3>().await?,
-            false => drop(self.triangulator.gpu().await?),
-        }
-        Ok(())
+    /// 3D, or, if that goes on `meanwhile`, begins to.
+    pub async fn open3d(&self, meanwhile: bool) -> Result<(), Thrown> {
+        Ok(self.triangulator.open_for::<3>(meanwhile).await?)
     }
 
     /// Triangulates in 3D. With `resident`, the mesh stays on the device, and `outputs` has no
