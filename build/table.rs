@@ -230,7 +230,10 @@ fn module(
     let mut hasher = DefaultHasher::new();
     text.hash(&mut hasher);
     let digest = hasher.finish();
-    writeln!(text, "/// Tells these shaders from those of other versions.\n#[allow(dead_code)]\npub(crate) const DIGEST: u64 = {digest};")?;
+    writeln!(
+        text,
+        "/// Tells these shaders from those of other versions.\n#[allow(dead_code)]\npub(crate) const DIGEST: u64 = {digest};"
+    )?;
     Ok(text)
 }
 

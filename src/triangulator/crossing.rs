@@ -103,7 +103,13 @@ impl Crossing {
     ///
     /// The CPU engine takes so many nanoseconds per point in one thread.
     pub(super) fn new((cpu, gpu): (f64, Prior), compiling: f64) -> Self {
-        Crossing { cpu: Times::new([0.0, cpu / all_cores()]), gpu: Times::new(gpu), compiling, learns: true, name: None }
+        Crossing {
+            cpu: Times::new([0.0, cpu / all_cores()]),
+            gpu: Times::new(gpu),
+            compiling,
+            learns: true,
+            name: None,
+        }
     }
 
     /// Notes that the CPU engine took so many milliseconds, with all threads.

@@ -19,12 +19,12 @@ async function use<T>(
 ): Promise<T | undefined> {
   try {
     const database = await open();
-    return await new Promise((resolve, reject) => {
+    return (await new Promise((resolve, reject) => {
       const transaction = database.transaction(STORE, mode);
       const request = work(transaction.objectStore(STORE));
       transaction.oncomplete = () => resolve(request.result);
       transaction.onabort = () => reject(transaction.error);
-    }).finally(() => database.close()) as T;
+    }).finally(() => database.close())) as T;
   } catch {
     return undefined;
   }

@@ -17,9 +17,8 @@ use std::{
 pub(crate) fn name(adapter: &AdapterSummary, dimension: usize) -> Option<String> {
     let AdapterSummary { name, backend, driver, software, .. } = adapter;
     let (version, threads) = (env!("CARGO_PKG_VERSION"), count(Threads::All));
-    (!software).then(|| {
-        format!("gdel {version} {DIGEST:x}, {dimension}D, {name}, {backend}, {driver}, {threads} threads")
-    })
+    (!software)
+        .then(|| format!("gdel {version} {DIGEST:x}, {dimension}D, {name}, {backend}, {driver}, {threads} threads"))
 }
 
 /// Returns what was saved under a name; nothing if there is none.

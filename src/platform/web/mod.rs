@@ -3,9 +3,9 @@
 #[cfg(feature = "gpu")]
 pub(crate) mod gpu;
 #[cfg(feature = "gpu")]
-pub(crate) mod records;
-#[cfg(feature = "gpu")]
 mod host;
+#[cfg(feature = "gpu")]
+pub(crate) mod records;
 #[cfg(feature = "gpu")]
 mod target;
 pub(crate) use super::single as threads;

@@ -2,9 +2,7 @@
 
 use gdel::{
     Backend, DeviceMesh3, Error, Mesh3, Triangulator,
-    internals::{
-        gpu::{engine::MadeMesh, host::AnyHost},
-    },
+    internals::gpu::{engine::MadeMesh, host::AnyHost},
 };
 use js_sys::Function;
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
