@@ -24,6 +24,9 @@ use crate::{
 /// The number of vertices that is worth handing to another thread.
 const GRAIN: usize = 1 << 12;
 
+/// So many neighbours of a vertex are looked through for another one. What is left out is sorted out later.
+const RECENT: usize = 16;
+
 /// The strength of what is certain. Strengths are integers, and equal ones are taken in the order of
 /// the vertices, so that the result does not depend on the last bits of the spheres.
 const CERTAIN: f64 = 65535.0;
@@ -146,8 +149,12 @@ impl<'a> Constraints<'a> {
             let mut higher = Vec::new();
             for v in range.start as u32..range.end as u32 {
                 higher.clear();
-                let vertices = stars.of(v).iter().flat_map(|&t| &complex.simplices[t as usize]);
-                higher.extend(vertices.filter(|&&w| w > v));
+                for &w in stars.of(v).iter().flat_map(|&t| &complex.simplices[t as usize]) {
+                    // Most come several times, and are few.
+                    if w > v && !higher[higher.len().saturating_sub(RECENT)..].contains(&w) {
+                        higher.push(w);
+                    }
+                }
                 higher.sort_unstable();
                 higher.dedup();
                 for &w in &higher {

@@ -54,8 +54,8 @@ pub(super) fn isolated<const D: usize, const N: usize>(complex: &Complex<'_, D, 
     parallel::joined(parts)
 }
 
-/// Returns whether a vertex has enough neighbours within a squared distance, or they and their neighbours
-/// are enough. Where it does not, its [`reach`] is farther: as many are among those that this looks at.
+/// Returns whether enough vertices are within a squared distance of a vertex: of its neighbours, or of the neighbours
+/// of those. Then its [`reach`] is within that, too, but this looks at fewer.
 fn has_company<const D: usize, const N: usize>(complex: &Complex<'_, D, N>, stars: &Csr, v: u32, limit: f64) -> bool {
     let point = complex.point(v);
     // First the vertex itself.
