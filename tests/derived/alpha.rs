@@ -495,3 +495,60 @@ fn alpha_complexes_equal_those_of_cgal() {
         }
     }
 }
+
+/// Returns the share of the hull's volume that the solid for a radius has.
+fn filled(points: &[[f64; 3]], alpha: impl Fn(&AlphaShape) -> f64) -> f64 {
+    let mesh = mesh3(points);
+    let shape = AlphaShape::new(&mesh, points).unwrap();
+    let volumes: Vec<f64> = mesh.volumes(points).collect();
+    let solid: f64 = shape.at(alpha(&shape)).unwrap().solid().map(|t| volumes[t]).sum();
+    solid / volumes.iter().sum::<f64>()
+}
+
+/// Points along a spiral on a sphere.
+fn spiral(count: usize) -> Vec<[f64; 3]> {
+    let point = |i: usize| {
+        let (z, turn) = (1.0 - (2 * i + 1) as f64 / count as f64, 2.399963229728653 * i as f64);
+        let r = (1.0 - z * z).sqrt();
+        [r * turn.cos(), r * turn.sin(), z]
+    };
+    (0..count).map(point).collect()
+}
+
+#[test]
+fn the_solid_of_a_sphere_is_its_ball_although_the_last_bits_of_the_radii_differ() {
+    for count in [20, 500, 3000] {
+        let points = spiral(count);
+        let share = filled(&points, |shape| shape.auto_alpha(1).unwrap());
+        assert!(share > 0.999_999, "{count}: {share}");
+    }
+}
+
+#[test]
+fn the_solid_of_a_grid_whose_corners_are_rounded_is_its_box() {
+    let corner = |i: u32| [i % 6, i / 6 % 6, i / 36].map(|x| f64::from(x) * 0.1);
+    let points: Vec<[f64; 3]> = (0..216).map(corner).collect();
+    let share = filled(&points, |shape| shape.auto_alpha(1).unwrap());
+    assert!((share - 1.0).abs() < 1e-12, "{share}");
+}
+
+#[test]
+fn a_radius_typed_with_17_digits_takes_what_is_meant() {
+    let points: Vec<[f64; 3]> = (0..64).map(|i| [i % 4, i / 4 % 4, i / 16].map(f64::from)).collect();
+    // The root of 3/4 is a little more.
+    let typed: f64 = "0.86602540378443864".parse().unwrap();
+    assert_eq!(filled(&points, |_| typed), 0.0);
+    assert_eq!(filled(&points, |shape| shape.up_to_rounding(typed)), 1.0);
+    assert_eq!(filled(&points, |shape| shape.up_to_rounding(0.86)), 0.0);
+}
+
+#[test]
+fn radii_that_differ_by_more_than_rounding_are_not_taken() {
+    let points = spiral(9);
+    let mesh = mesh3(&points);
+    let shape = AlphaShape::new(&mesh, &points).unwrap();
+    let alpha = shape.auto_alpha(1).unwrap();
+    assert!(alpha >= shape.find_alpha(1).unwrap() && alpha < 1.0 + 1e-12);
+    assert_eq!(shape.up_to_rounding(f64::INFINITY), f64::INFINITY);
+    assert_eq!(shape.up_to_rounding(0.0), 0.0);
+}

@@ -19,7 +19,7 @@ pub(super) struct Arguments {
     #[command(flatten)]
     common: Common,
     /// The radius; `auto` is the smallest one with which all points belong to the solid and the
-    /// solid has no more components than `--components`
+    /// solid has no more components than `--components`. Either takes what is as large up to rounding
     #[arg(long, default_value = "auto", allow_negative_numbers = true)]
     #[arg(value_parser = clap::builder::StringValueParser::new().try_map(|text| parse_alpha(&text)))]
     alpha: Alpha,
@@ -94,9 +94,9 @@ where
 {
     let shape = AlphaShape::new(mesh, points)?;
     let radius = match alpha {
-        Alpha::Radius(radius) => radius,
+        Alpha::Radius(radius) => shape.up_to_rounding(radius),
         // Flat points have no solid for any radius.
-        Alpha::Auto => shape.find_alpha(components).unwrap_or(0.0),
+        Alpha::Auto => shape.auto_alpha(components).unwrap_or(0.0),
     };
     let complex = shape.at(radius)?;
     let parts =

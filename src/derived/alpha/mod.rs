@@ -3,6 +3,7 @@
 mod complex;
 mod edges;
 mod groups;
+mod rounding;
 mod values;
 
 pub use complex::{AlphaComplex, FaceClass};
@@ -14,7 +15,7 @@ use super::{
 };
 use crate::{
     error::Error,
-    geometry::{Euclidean, facet, radius_rounded_up, vector},
+    geometry::{Euclidean, facet, radius_rounded_up},
     index::NONE,
     input::points::Points,
     mesh::Mesh,
@@ -143,8 +144,7 @@ where
     /// [`Locator::new`](crate::Locator::new).
     pub fn new<'a>(mesh: &'a impl Mesh<D, N>, points: impl Into<Points<'a, D>>) -> Result<Self, Error> {
         let mesh = Sorted::new(&Complex::new(mesh, points.into())?);
-        let scale = vector::scale_of(mesh.complex.bounds());
-        let radii = Radii { mesh, scale };
+        let radii = Radii::new(mesh, rounding::UNIT);
         let complex = &radii.mesh.complex;
         let mut simplices = vec![(0.0, [false; N]); complex.simplices.len()];
         parallel::for_chunks(Threads::All, &mut simplices, |start, chunk| {
@@ -200,7 +200,8 @@ where
     /// Returns the smallest alpha whose solid has all vertices and at most so many components,
     /// which hang together across facets; `None` if `components` is 0 or the mesh has no simplices.
     ///
-    /// The result is not rounded down: the complex at this alpha has the promised properties.
+    /// The result is not rounded down: the complex at this alpha has the promised properties. Where many
+    /// radii are equal up to rounding, [`auto_alpha`](Self::auto_alpha) takes all of them.
     pub fn find_alpha(&self, components: usize) -> Option<f64> {
         let t = self.groups().first_with(components, &self.radii.mesh.complex)?;
         Some(radius_rounded_up::<D, N>(&self.radii.mesh.complex.corners(t)))

@@ -43,6 +43,8 @@ pub struct Radii<const D: usize, const N: usize> {
     pub(super) mesh: Sorted<D, N>,
     /// The power of two that coordinates are multiplied by before they are rounded.
     pub(super) scale: f64,
+    /// How far a vertex may be from where it was before its coordinates were rounded, scaled.
+    pub(super) rounding: f64,
 }
 
 /// A radius to compare with.
@@ -63,6 +65,16 @@ impl<const D: usize, const N: usize> Radii<D, N>
 where
     Euclidean: Geometry<D, N>,
 {
+    /// Prepares a mesh whose coordinates may be off by `unit` times the largest one.
+    pub(super) fn new(mesh: Sorted<D, N>, unit: f64) -> Self {
+        let bounds = mesh.complex.bounds();
+        let scale = vector::scale_of(bounds);
+        // An empty mesh has infinite bounds.
+        let largest = bounds.as_flattened().iter().fold(0.0f64, |largest, x| largest.max((x * scale).abs()));
+        let rounding = unit * (D as f64).sqrt() * largest;
+        Radii { mesh, scale, rounding }
+    }
+
     pub(super) fn alpha(&self, radius: f64) -> Alpha {
         let scaled = radius * self.scale;
         let squared = scaled * scaled;

@@ -463,7 +463,10 @@ where
     let shape = AlphaShape::new(&task.mesh, task.points.points::<D>()?)?;
     task.report(0.6)?;
     // Flat points have no solid for any radius.
-    let alpha = alpha.unwrap_or_else(|| shape.find_alpha(components as usize).unwrap_or(0.0));
+    let alpha = match alpha {
+        Some(alpha) => shape.up_to_rounding(alpha),
+        None => shape.auto_alpha(components as usize).unwrap_or(0.0),
+    };
     let complex = shape.at(alpha)?;
     let critical = if with_critical_values { shape.critical_values() } else { Vec::new() };
     task.report(0.9)?;
