@@ -4,7 +4,7 @@
 //! (Labatut, Pons and Keriven, *Robust and efficient surface reconstruction from range data*, 2009):
 //! near a well sampled surface those are the facets on it.
 
-use super::{super::complex::Complex, poles::Spheres};
+use super::{super::complex::Complex, spheres::Spheres};
 use crate::{
     geometry::{Euclidean, Geometry, facet, vector},
     parallel::{self, Threads},

@@ -13,7 +13,8 @@ use super::{
     super::complex::Complex,
     evidence::Hints,
     parity::ParitySets,
-    poles::{BENEATH, OUTSIDE, Poles, Spheres},
+    poles::Poles,
+    spheres::{BENEATH, OUTSIDE, Spheres},
 };
 use crate::{
     index::NONE,

@@ -10,7 +10,7 @@
 use super::{
     super::complex::Complex,
     SurfaceOptions,
-    poles::{BENEATH, OUTSIDE, Spheres},
+    spheres::{BENEATH, OUTSIDE, Spheres},
 };
 use crate::{
     error::Error,

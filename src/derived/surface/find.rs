@@ -11,8 +11,9 @@ use super::{
     capacity, constraints, cut,
     evidence::{Evidence, Hints},
     open::{self, Gaps, Open, Unseen},
-    poles::{Poles, Spheres},
+    poles::Poles,
     refine, solid,
+    spheres::Spheres,
 };
 use crate::{
     error::Error,

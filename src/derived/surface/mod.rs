@@ -6,7 +6,7 @@
 //! 0. `evidence`: what normals, sensors and the up direction say;
 //!    `clean`: isolated points are dropped, and where there is noise, points are moved onto local
 //!    quadrics (`outliers`, `quadrics`, `neighbors`), and triangulated again;
-//! 1. `poles`: the circumspheres, and the two farthest circumcentres around each vertex;
+//! 1. `spheres`, `poles`: the circumspheres, and the two farthest circumcentres around each vertex;
 //! 2. `constraints`, `parity`: which poles lie inside and which outside;
 //! 3. `capacity`: what it costs that a facet belongs to the surface;
 //! 4. `cut`: the least surface that separates the poles inside from those outside;
@@ -32,6 +32,7 @@ mod poles;
 mod quadrics;
 mod refine;
 mod solid;
+mod spheres;
 
 use super::complex::Complex;
 use crate::{

@@ -1,4 +1,4 @@
-//! Circumspheres, and the poles of each vertex (Amenta and Bern, *Surface reconstruction by Voronoi
+//! The poles of each vertex (Amenta and Bern, *Surface reconstruction by Voronoi
 //! filtering*, 1999).
 //!
 //! The circumcentres around a vertex are the corners of its Voronoi cell. Near a well sampled surface
@@ -8,54 +8,19 @@
 use super::{
     super::{complex::Complex, sorted::Sorted},
     evidence::Hints,
+    spheres::Spheres,
 };
 use crate::{
-    geometry::{Euclidean, Geometry, circumsphere, facet, vector},
+    geometry::{Euclidean, Geometry, facet, vector},
     index::NONE,
     mesh::Csr,
     parallel::{self, Threads},
 };
 
-/// The circumspheres of simplices.
-#[derive(Debug)]
-pub(super) struct Spheres<const D: usize> {
-    pub(super) centers: Vec<[f64; D]>,
-    pub(super) radii: Vec<f64>,
-}
-
-impl<const D: usize> Spheres<D> {
-    pub(super) fn new<const N: usize>(complex: &Complex<'_, D, N>) -> Self
-    where
-        Euclidean: Geometry<D, N>,
-    {
-        let count = complex.simplices.len();
-        let mut spheres = Spheres { centers: vec![[0.0; D]; count], radii: vec![0.0; count] };
-        let lists = (&mut spheres.centers[..], &mut spheres.radii[..]);
-        parallel::for_chunk_pairs(Threads::All, lists, |start, (centers, radii)| {
-            for ((center, radius), t) in centers.iter_mut().zip(radii).zip(start..) {
-                let corners = complex.corners(t);
-                let (offset, length) = circumsphere(&corners);
-                (*center, *radius) = (vector::plus(corners[0], offset), length);
-            }
-        });
-        spheres
-    }
-
-    /// Returns how deeply two spheres intersect: the cosine of the angle between their radii at a
-    /// common point, with the sign that makes it 1 for equal spheres and −1 for spheres that touch
-    /// from outside; less if they are disjoint.
-    pub(super) fn intersection(&self, i: u32, j: u32) -> f64 {
-        let (i, j) = (i as usize, j as usize);
-        let (r, s) = (self.radii[i], self.radii[j]);
-        let squared = vector::squared_norm(vector::minus(self.centers[i], self.centers[j]));
-        (r * r + s * s - squared) / (2.0 * r * s)
-    }
-}
-
 /// The two poles of a vertex, which lie on different sides of the surface.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Poles {
-    /// The simplex with the farthest circumcentre; for vertices of the hull [`OUTSIDE`], or [`BENEATH`]
+    /// The simplex with the farthest circumcentre; for vertices of the hull `OUTSIDE`, or `BENEATH`
     /// or [`NONE`] if the evidence says so.
     pub(super) first: u32,
     /// The simplex with the farthest circumcentre in the opposite half-space; [`NONE`] if there
@@ -65,12 +30,6 @@ pub(super) struct Poles {
     /// is the mean normal.
     pub(super) cosine: f64,
 }
-
-/// Stands for what is outside the hull as a pole.
-pub(super) const OUTSIDE: u32 = NONE - 1;
-
-/// Stands for what is beyond the hull, but known to be inside. Simplices have lower numbers.
-pub(super) const BENEATH: u32 = NONE - 2;
 
 impl Poles {
     const UNKNOWN: Poles = Poles { first: NONE, second: NONE, cosine: 0.0 };
