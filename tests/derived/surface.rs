@@ -305,6 +305,14 @@ fn boxes_that_touch() {
 }
 
 #[test]
+fn coarse_boxes_have_edges_and_no_noise() {
+    let boxes = [grid_box([0.0; 3], [8, 6, 4], 0.5), grid_box([6.0, 0.0, 0.0], [8, 6, 4], 0.5)].concat();
+    let surface = Surface::new(&mesh3(&boxes), &boxes, &SurfaceOptions::default()).unwrap();
+    assert_eq!((surface.noise(), surface.components(), surface.genus()), (0.0, 2, 0));
+    assert_volume(&surface, 48.0, 0.02);
+}
+
+#[test]
 fn a_sphere_inside_another_is_a_cavity() {
     let surface = surface3(&[sphere(3000, 2.0), sphere(1000, 1.0)].concat());
     assert_eq!((surface.components(), surface.genus()), (2, 0));

@@ -17,6 +17,13 @@ const NEIGHBORS: usize = 40;
 /// With fewer points, neighbourhoods are not small.
 pub(super) const MIN_POINTS: usize = 8 * NEIGHBORS;
 
+/// The number of points of a plane, in 2D and in 3D, the point included.
+const NEAREST: [usize; 2] = [5, 9];
+
+/// Points lie in a plane if they are not farther from it than this share of their distance. With the least noise that is
+/// mended they are farther: three times.
+const FLAT: f64 = 0.01;
+
 /// The number of points by which noise is estimated.
 const SAMPLES: usize = 2000;
 
@@ -41,16 +48,56 @@ struct Fit<const D: usize> {
 
 /// Returns the median distance of points from quadrics through their neighbours, in units of the
 /// distance between points.
+///
+/// It is 0 where a quarter of the points lie in a plane with the nearest ones: there is no noise then, but edges, of which the
+/// neighbours have some where faces have few points.
 pub(super) fn noise<const D: usize>(points: &[[f64; D]]) -> f64 {
     let tree = Tree::new(points);
     let step = points.len().div_ceil(SAMPLES);
     let samples: Vec<u32> = (0..points.len() as u32).step_by(step).collect();
-    let parts = parallel::map_grains(Threads::All, samples.len(), GRAIN, |range| {
-        let mut near = Vec::new();
-        let fits = samples[range].iter().map(|&i| fit(points, &tree, points[i as usize], &mut near));
-        fits.map(|fit| if fit.spacing > 0.0 { fit.residual / fit.spacing } else { 0.0 }).collect::<Vec<f64>>()
+    let of_samples = |distance: &(dyn Fn([f64; D], &mut Vec<(f64, u32)>) -> f64 + Sync)| {
+        let parts = parallel::map_grains(Threads::All, samples.len(), GRAIN, |range| {
+            let mut near = Vec::new();
+            samples[range].iter().map(|&i| distance(points[i as usize], &mut near)).collect::<Vec<f64>>()
+        });
+        parallel::joined(parts)
+    };
+    let mut from_planes = of_samples(&|point, near| from_plane(points, &tree, point, near));
+    from_planes.sort_unstable_by(f64::total_cmp);
+    if from_planes.get(from_planes.len() / 4).is_none_or(|&quarter| quarter < FLAT) {
+        return 0.0;
+    }
+    let mut from_quadrics = of_samples(&|point, near| {
+        let fit = fit(points, &tree, point, near);
+        if fit.spacing > 0.0 { fit.residual / fit.spacing } else { 0.0 }
     });
-    median(&mut parallel::joined(parts)).unwrap_or(0.0)
+    median(&mut from_quadrics).unwrap_or(0.0)
+}
+
+/// Returns how far the points next to one are from a plane, in 2D a line, in units of the distance between points.
+fn from_plane<const D: usize>(
+    points: &[[f64; D]],
+    tree: &Tree<'_, D>,
+    point: [f64; D],
+    near: &mut Vec<(f64, u32)>,
+) -> f64 {
+    tree.nearest(point, NEAREST[D - 2], near);
+    let radius = near.last().map_or(0.0, |&(squared, _)| squared.sqrt());
+    if radius == 0.0 {
+        return 0.0;
+    }
+    let around = || near.iter().map(|&(_, j)| vector::minus(points[j as usize], point));
+    let count = near.len() as f64;
+    let center = vector::times(1.0 / count, around().fold([0.0; D], vector::plus));
+    let mut covariance = [[0.0; D]; D];
+    for q in around().map(|q| vector::minus(q, center)) {
+        for (row, x) in covariance.iter_mut().zip(q) {
+            *row = vector::plus(*row, vector::times(x, q));
+        }
+    }
+    let normal = axes(covariance)[0];
+    let squared = around().map(|q| vector::dot(normal, vector::minus(q, center))).map(|height| height * height);
+    (squared.sum::<f64>() / count).sqrt() / radius
 }
 
 /// Returns the points, each moved onto the quadric through its neighbours.
