@@ -117,6 +117,14 @@ pub enum Error {
         /// The message of the GPU's driver or of wgpu.
         reason: String,
     },
+    /// The GPU computes something else than it should: a defect of it or of its driver. It is not to be used.
+    #[error("the GPU ({adapter}) computes wrong results: {test}")]
+    WrongResults {
+        /// The name of the GPU.
+        adapter: String,
+        /// What noticed it: a test with a known answer, or a check of a mesh.
+        test: &'static str,
+    },
     /// The system does not start as many threads as were requested.
     #[error("{threads} threads cannot be started: {reason}")]
     Threads {
@@ -207,7 +215,7 @@ impl Error {
         use Error::*;
         match self {
             GpuUnavailable { .. } | NoAdapter { .. } | AdapterNotFound { .. } | DeviceLost { .. } => true,
-            OutOfDeviceMemory { .. } | BufferTooLarge { .. } | Gpu { .. } => true,
+            OutOfDeviceMemory { .. } | BufferTooLarge { .. } | Gpu { .. } | WrongResults { .. } => true,
             TooManyPoints { .. } | TooManySimplices { .. } => true,
             NotFinite { .. } | NotWholePoints { .. } | ArrayShape { .. } | ArrayLayout => false,
             AdapterOfDevice | OutOfMemory { .. } | Threads { .. } | Cancelled => false,

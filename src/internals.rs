@@ -126,6 +126,9 @@ pub mod gpu {
             pub use crate::gpu::primitives::sort::{FEW, Sort, TILE};
         }
     }
+    pub mod self_test {
+        pub use crate::gpu::self_test::{KNOWN_ANSWERS, KnownAnswer, fingerprint};
+    }
     pub mod shader {
         pub use crate::gpu::shader::{D2, D3, Shader, Shaders, with_int64};
     }

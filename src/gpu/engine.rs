@@ -529,7 +529,7 @@ where
     /// Returns the device with the kernels for so many points of this width, compiled if they are not,
     /// and gives the buffers of the other ones back, because points of another kind are unlikely to
     /// come soon.
-    async fn kernels(&mut self, width: Width, points: usize) -> Result<(&Gpu, &mut Phase1<D>), Error> {
+    pub(crate) async fn kernels(&mut self, width: Width, points: usize) -> Result<(&Gpu, &mut Phase1<D>), Error> {
         if let Some(parts) = self.settings.parts(&self.gpu, points) {
             self.wide.release();
             self.narrow.iter_mut().for_each(Phase1::release);

@@ -38,6 +38,7 @@ pub(crate) mod queries;
 pub(crate) mod readback;
 mod recorder;
 pub(crate) mod room;
+pub mod self_test;
 pub mod shader;
 pub mod start;
 pub(crate) mod steps;

@@ -38,4 +38,5 @@ mod moved;
 mod points;
 mod primitives;
 mod queries;
+mod self_test;
 mod shaders;

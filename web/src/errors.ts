@@ -24,6 +24,8 @@ export type GdelErrorCode =
   | 'BUFFER_TOO_LARGE'
   /** The GPU or its driver reported an unexpected error. */
   | 'GPU'
+  /** The GPU or its driver computes wrong results, which a test or a check has noticed. */
+  | 'GPU_WRONG'
   /** WebAssembly ran out of memory, of which there is at most 4 GB. */
   | 'OUT_OF_MEMORY'
   /** A file is broken; the message says where. */
@@ -53,6 +55,7 @@ export const GPU_ERRORS: ReadonlySet<GdelErrorCode> = new Set([
   'OUT_OF_DEVICE_MEMORY',
   'BUFFER_TOO_LARGE',
   'GPU',
+  'GPU_WRONG',
 ]);
 
 /**

@@ -62,6 +62,7 @@ impl From<Error> for Thrown {
             Error::OutOfDeviceMemory { .. } => "OUT_OF_DEVICE_MEMORY",
             Error::BufferTooLarge { .. } => "BUFFER_TOO_LARGE",
             Error::Gpu { .. } => "GPU",
+            Error::WrongResults { .. } => "GPU_WRONG",
             Error::TooManySimplices { .. } => "TOO_MANY_TETRAHEDRA",
             Error::OutOfMemory { .. } => "OUT_OF_MEMORY",
             Error::Cancelled => "ABORTED",
