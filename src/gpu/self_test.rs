@@ -44,7 +44,7 @@ pub struct KnownAnswer {
 /// lists fill several workgroups.
 pub const KNOWN_ANSWERS: [KnownAnswer; 4] = [
     KnownAnswer {
-        name: "uniform",
+        name: "few",
         shape: Shape::Uniform,
         count: 1_000,
         answers: [0xd665_b062_6a55_2647, 0xe58d_5ea6_7405_61cf],
@@ -61,13 +61,16 @@ pub const KNOWN_ANSWERS: [KnownAnswer; 4] = [
         count: 400,
         answers: [0x1733_69c5_2cc7_2c7c, 0xc47a_91b8_953a_416e],
     },
-    KnownAnswer {
-        name: "large",
-        shape: Shape::Uniform,
-        count: 30_000,
-        answers: [0x23a7_46ad_a0b6_f6de, 0xa100_7ee8_ec16_c7ed],
-    },
+    UNIFORM,
 ];
+
+/// The largest of the tests.
+pub const UNIFORM: KnownAnswer = KnownAnswer {
+    name: "uniform",
+    shape: Shape::Uniform,
+    count: 30_000,
+    answers: [0x23a7_46ad_a0b6_f6de, 0xa100_7ee8_ec16_c7ed],
+};
 
 /// The points along an axis of the grid.
 const SIDE: u64 = 12;

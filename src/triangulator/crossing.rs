@@ -92,6 +92,8 @@ pub struct Crossing {
     gpu: Times,
     /// How long it takes to compile the kernels, in milliseconds.
     compiling: f64,
+    /// Whether the device has passed its test.
+    is_proven: bool,
     /// Whether what runs take is noted.
     pub(super) learns: bool,
     /// Under which name it is kept for later processes, once the device is known.
@@ -107,6 +109,7 @@ impl Crossing {
             cpu: Times::new([0.0, cpu / all_cores()]),
             gpu: Times::new(gpu),
             compiling,
+            is_proven: false,
             learns: true,
             name: None,
         }
@@ -135,6 +138,17 @@ impl Crossing {
         self.compiling
     }
 
+    /// Notes that the device has passed its test.
+    pub(super) fn prove(&mut self) {
+        self.is_proven = true;
+        self.keep();
+    }
+
+    /// Returns whether the device has passed its test, in this process or in an earlier one.
+    pub(super) fn is_proven(&self) -> bool {
+        self.is_proven
+    }
+
     /// Recalls what an earlier process has kept under this name, and keeps what is measured from now on.
     pub(super) fn recall(&mut self, name: String) {
         if self.name.as_ref() != Some(&name) {
@@ -156,23 +170,24 @@ impl Crossing {
         [slower * self.cpu.estimate(points), self.gpu.estimate(points)]
     }
 
-    /// Returns what is to be kept: the microseconds of compiling, and those of the fastest runs with their numbers of
+    /// Returns what is to be kept: 0 or 1 for the test, the microseconds of compiling, and those of the fastest runs with their numbers of
     /// points, which are 0 where nothing is known.
     pub(super) fn to_words(&self) -> Vec<u32> {
         // Conversions saturate.
         let micros = |time: f64| (time * 1e3) as u32;
         let runs = self.cpu.fastest.iter().chain(&self.gpu.fastest);
         let runs = runs.flat_map(|run| run.map_or([0, 0], |(points, time)| [points as u32, micros(time)]));
-        [micros(self.compiling)].into_iter().chain(runs).collect()
+        [self.is_proven.into(), micros(self.compiling)].into_iter().chain(runs).collect()
     }
 
     /// Takes over what was kept. What this process has measured stays if it is less.
     pub(super) fn merge(&mut self, words: &[u32]) {
-        let Some((&compiling, runs)) = words.split_first() else { return };
+        let Some((&[is_proven, compiling], runs)) = words.split_first_chunk() else { return };
         let (runs, []) = runs.as_chunks() else { return };
         if runs.len() != 2 * SIZES {
             return;
         }
+        self.is_proven |= is_proven == 1;
         self.compiling = f64::from(compiling) / 1e3;
         for (i, &[points, time]) in runs.iter().enumerate() {
             let times = if i < SIZES { &mut self.cpu } else { &mut self.gpu };

@@ -166,6 +166,24 @@ impl Triangulator {
         self
     }
 
+    /// Sets whether a device has to compute meshes that are known before it is used, for this triangulator and those
+    /// that share its device. By default hardware has to, once: what has passed is remembered in the user's cache
+    /// directory, as long as the driver and this crate stay the same. With `true`, software has to as well. A device
+    /// that fails is an [`Error::WrongResults`], and [`Backend::Auto`] takes the CPU.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// let triangulator = gdel::Triangulator::new().self_test(false);
+    /// # let _ = triangulator;
+    /// ```
+    #[cfg(feature = "gpu")]
+    #[must_use]
+    pub fn self_test(self, self_test: bool) -> Self {
+        self.device.set_self_test(self_test);
+        self
+    }
+
     /// Sets a function that is called a few hundred times per run: in the calling thread, or in one
     /// of the [`threads`](Triangulator::threads) if their number was set.
     /// [`ControlFlow::Break`] cancels the run, which then returns [`Error::Cancelled`].

@@ -116,7 +116,7 @@ fn check_count<const D: usize>(points: Points<'_, D>, moved: Option<&DeviceMesh<
 impl SharedDevice {
     /// Creates the state for a device of this adapter, in place of this state.
     pub(super) fn with_adapter(&self, adapter: AdapterChoice) -> Self {
-        let setup = Setup { adapter, ..Setup::default() };
+        let setup = self.setup.with_adapter(adapter);
         SharedDevice { setup, is_contradictory: self.is_callers, ..SharedDevice::default() }
     }
 
@@ -128,6 +128,11 @@ impl SharedDevice {
         setup.known.set_learning(!gpu.adapter().software);
         let state = State { caller_supplied: Some(gpu), ..State::default() };
         SharedDevice { setup, is_callers: true, state: Mutex::new(state), ..SharedDevice::default() }
+    }
+
+    /// Sets whether devices are tested before they are used.
+    pub(super) fn set_self_test(&self, self_test: bool) {
+        self.setup.set_self_test(self_test);
     }
 
     /// Returns what calls that block use: where nobody can wait for a GPU, a state without one.

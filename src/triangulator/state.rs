@@ -3,6 +3,7 @@
 
 use super::crossing::Crossing;
 use crate::{
+    cpu,
     dimension::Dimension,
     error::Error,
     gpu::{
@@ -10,7 +11,10 @@ use crate::{
         device_mesh::MeshArrays,
         engine::{Complete, GpuEngine},
         phase1::Finish,
+        self_test::UNIFORM,
     },
+    input::points::Points,
+    options::Options,
     platform::{
         Instant,
         gpu::{OPENING, PRIORS, Task},
@@ -42,8 +46,45 @@ where
     Dimension<D>: Finish<D>,
 {
     began: Instant,
-    task: Task<Result<GpuEngine<D>, Error>>,
+    task: Task<Result<Opened<D>, Error>>,
 }
+
+/// A GPU engine, and what was found out while it was opened.
+#[derive(Debug)]
+struct Opened<const D: usize>
+where
+    Dimension<D>: Finish<D>,
+{
+    engine: GpuEngine<D>,
+    /// If the device was tested, and passed: how many milliseconds [`FEW`] points take the CPU engine.
+    tested: Option<f64>,
+}
+
+impl<const D: usize> Opened<D>
+where
+    Dimension<D>: Choice<D>,
+{
+    /// Compiles the kernels, and tests the device if it `is_new`.
+    async fn new(gpu: Gpu, is_new: bool) -> Result<Self, Error> {
+        let mut engine = GpuEngine::new(gpu).await?;
+        if !is_new {
+            return Ok(Opened { engine, tested: None });
+        }
+        engine.self_test().await?;
+        let points = UNIFORM.points::<D>();
+        let time = || {
+            let began = Instant::now();
+            cpu::delaunay(Points::F64(&points[..FEW]), &Options::default()).map(|_| millis(began))
+        };
+        // The first run takes fresh memory.
+        let tested = Some(time()?.min(time()?));
+        Ok(Opened { engine, tested })
+    }
+}
+
+/// The number of points by which the CPU engine is measured: so few that nobody has to wait for it.
+const FEW: usize = 8_000;
+
 
 impl<const D: usize> Opening<D>
 where
@@ -99,6 +140,29 @@ pub(super) struct Setup {
     pub(super) known: Known,
     /// Whether the CPU engine makes meshes while kernels are compiled.
     pub(super) compiles_meanwhile: bool,
+    /// Whether devices are tested before they are used, if that was set.
+    self_test: Mutex<Option<bool>>,
+}
+
+impl Setup {
+    /// Creates the setup for another adapter, in place of this one.
+    pub(super) fn with_adapter(&self, adapter: AdapterChoice) -> Self {
+        Setup { adapter, self_test: Mutex::new(*self.self_test()), ..Setup::default() }
+    }
+
+    /// Sets whether devices are tested.
+    pub(super) fn set_self_test(&self, self_test: bool) {
+        *self.self_test() = Some(self_test);
+    }
+
+    fn self_test(&self) -> MutexGuard<'_, Option<bool>> {
+        self.self_test.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Returns whether a device is tested. Software computes rightly, as tests of this crate show, and slowly.
+    fn tests(&self, is_software: bool) -> bool {
+        self.self_test().unwrap_or(!is_software)
+    }
 }
 
 /// What is known of the speed of both engines.
@@ -169,12 +233,20 @@ impl State {
         self.begin_opening::<D>(setup).await?;
         let slot = Dimension::<D>::slot(self);
         if let Some(Opening { task, began }) = slot.opening.take() {
-            let mut engine = task.result().await?;
+            let Opened { mut engine, tested } = task.result().await?;
+            let mut known = setup.known.of::<D>();
+            match tested {
+                Some(cpu) => {
+                    known.note_cpu(FEW, cpu);
+                    known.prove();
+                }
+                // A test takes longer than compiling later.
+                None => known.note_compiling(millis(began)),
+            }
             if setup.compiles_meanwhile {
                 engine.compile_meanwhile();
             }
             slot.engine = Some(engine);
-            setup.known.of::<D>().note_compiling(millis(began));
         }
         slot.engine.as_mut().ok_or_else(|| Error::NoAdapter { reason: "it is not open".to_owned() })
     }
@@ -257,7 +329,8 @@ impl State {
             if let Some(name) = records::name(gpu.adapter(), D) {
                 setup.known.of::<D>().recall(name);
             }
-            let task = Task::begin(GpuEngine::new(gpu)).await;
+            let is_new = setup.tests(gpu.adapter().software) && !setup.known.of::<D>().is_proven();
+            let task = Task::begin(Opened::new(gpu, is_new)).await;
             Dimension::<D>::slot(self).opening = Some(Opening { began, task });
         }
         Ok(())

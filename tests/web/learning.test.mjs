@@ -51,7 +51,9 @@ async function untilOnGpu(kind) {
       const sizes = 14;
       const run = (points, time, rest) => [points, time, ...Array(rest).fill(0)];
       const hour = 3_600_000_000;
+      const isProven = 1;
       const before = [
+        isProven,
         hour,
         ...run(1_024, 1_000_000, 2 * sizes - 2),
         ...run(1_024, 1_000, 2 * sizes - 2),
@@ -79,7 +81,7 @@ async function untilOnGpu(kind) {
         await new Promise((resolve) => setTimeout(resolve, 100));
       }
       const wasKept = async () => {
-        const [compiling, , cpu] = await result(store().get(name));
+        const [, compiling, , cpu] = await result(store().get(name));
         return compiling < hour && cpu < 1_000_000;
       };
       while (!(await wasKept())) await new Promise((resolve) => setTimeout(resolve));
