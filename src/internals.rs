@@ -126,6 +126,10 @@ pub mod gpu {
             pub use crate::gpu::primitives::sort::{FEW, Sort, TILE};
         }
     }
+    #[cfg(not(target_arch = "wasm32"))]
+    pub mod mutation {
+        pub use crate::gpu::mutation::Mutation;
+    }
     pub mod self_test {
         pub use crate::gpu::self_test::{KNOWN_ANSWERS, KnownAnswer, fingerprint};
     }

@@ -5,6 +5,8 @@ use std::{
     time::Duration,
 };
 
+#[cfg(not(target_arch = "wasm32"))]
+use crate::gpu::mutation::Mutation;
 use crate::{
     error::Error,
     gpu::{Kernel, MAX_WORKGROUPS, WORKGROUP, parts, workgroups},
@@ -125,6 +127,9 @@ pub struct Gpu {
     lost: Arc<OnceLock<String>>,
     /// Kernels that are compiled once for the device.
     kernels: Arc<Mutex<Vec<KeptKernel>>>,
+    /// Whether the device stands for one that may be wrong, and how.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub(super) mutation: Option<Option<Mutation>>,
 }
 
 /// The name of a kernel, the width for which it is compiled, and the kernel.
@@ -178,7 +183,15 @@ impl Gpu {
     /// so that its loss comes out as [`Error::Gpu`].
     pub fn from_device(device: wgpu::Device, queue: wgpu::Queue) -> Self {
         let adapter = AdapterSummary::new(device.adapter_info(), &device.limits(), device.features());
-        Gpu { device, queue, adapter, lost: Arc::default(), kernels: Arc::default() }
+        Gpu {
+            device,
+            queue,
+            adapter,
+            lost: Arc::default(),
+            kernels: Arc::default(),
+            #[cfg(not(target_arch = "wasm32"))]
+            mutation: None,
+        }
     }
 
     /// Returns the device.

@@ -171,6 +171,15 @@ impl Kernel {
         })
     }
 
+    /// Compiles the kernel from what `edit` makes of its WGSL.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub(crate) fn edited(self, edit: &dyn Fn(String) -> String) -> Self {
+        if let Some((shader, width)) = self.shader {
+            self.pipeline.get_or_init(|| self.compile(&edit(shader.wgsl(width)), &[]));
+        }
+        self
+    }
+
     fn compile(&self, wgsl: &str, constants: &[(&str, f64)]) -> wgpu::ComputePipeline {
         let wgsl = match self.device.features().contains(wgpu::Features::SHADER_INT64) {
             true => &*with_int64(wgsl),

@@ -34,6 +34,7 @@ mod d3_reference;
 mod d3_reference_predicates;
 mod host;
 mod messages;
+mod mutants;
 mod moved;
 mod points;
 mod primitives;

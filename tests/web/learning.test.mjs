@@ -81,8 +81,8 @@ async function untilOnGpu(kind) {
         await new Promise((resolve) => setTimeout(resolve, 100));
       }
       const wasKept = async () => {
-        const [, compiling, , cpu] = await result(store().get(name));
-        return compiling < hour && cpu < 1_000_000;
+        const [, compiling] = await result(store().get(name));
+        return compiling < hour;
       };
       while (!(await wasKept())) await new Promise((resolve) => setTimeout(resolve));
       const names = await result(store().getAllKeys());
@@ -103,8 +103,6 @@ test('the CPU triangulates until the kernels are compiled', async () => {
   assert.ok(stats.length > 1, 'nothing is compiled at once');
   for (const { backend, fallback } of stats.slice(0, -1)) {
     assert.equal(backend, 'cpu');
-    // At first, the database may not have answered.
-    assert.match(fallback, /60 points (take the CPU less time|are too few)/);
+    assert.match(fallback, /60 points take the CPU less time than it takes to compile the kernels/);
   }
-  assert.match(stats.at(-2).fallback, /less time than it takes to compile the kernels/);
 });

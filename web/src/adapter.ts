@@ -69,7 +69,7 @@ export class BackendChoice {
     const info = await this.choose(backend);
     if (info.backend === 'cpu') return info;
     try {
-      void speed.recall(info.adapter!);
+      await speed.recall(info.adapter!);
       await speed.open(backend);
       return info;
     } catch (thrown) {
@@ -82,9 +82,9 @@ export class BackendChoice {
   /** Returns what `backend` uses for these points, or null where it is the CPU without looking for an adapter. */
   async decide(backend: Backend, { length }: Coordinates, speed: Speed): Promise<CoreInfo | null> {
     if (backend === 'cpu' || (backend === 'auto' && length < speed.least)) return null;
-    if (backend === 'gpu' || !COMPILES_MEANWHILE) return this.choose(backend);
+    if (!COMPILES_MEANWHILE) return this.choose(backend);
     const info = await this.open(backend, speed);
-    const fallback = info.backend === 'gpu' && speed.whyCpu(length);
+    const fallback = backend === 'auto' && info.backend === 'gpu' && speed.whyCpu(length);
     return fallback ? { ...info, backend: 'cpu', fallback } : info;
   }
 }

@@ -7,6 +7,9 @@ import type { AdapterInfo, Backend } from './types.js';
 /** Whether the CPU triangulates while kernels are compiled: Node may end meanwhile, and then crash. */
 export const COMPILES_MEANWHILE = !builtin('node:worker_threads');
 
+/** How long the database may take. */
+const PATIENCE_MILLISECONDS = 300;
+
 /** The functions of a dimension in WebAssembly. */
 export interface SpeedOf {
   /** The number of points from which on a GPU is faster. */
@@ -46,13 +49,15 @@ export class Speed {
     return this.#of.open(backend === 'auto' && COMPILES_MEANWHILE);
   }
 
-  /** Recalls what was known of an adapter, as soon as that is read. Nobody waits for it. */
+  /** Recalls what was known of an adapter. */
   async recall({ vendor, architecture, device, description }: AdapterInfo): Promise<void> {
     const { userAgent } = globalThis.navigator ?? {};
     if (this.#name !== undefined || !globalThis.indexedDB) return;
     const parts = [VERSION, this.#dimension, vendor, architecture, device, description, userAgent];
     this.#name = parts.join();
-    const known = await load(this.#name);
+    // A database that does not answer holds nobody up.
+    const nothing = new Promise<void>((resolve) => setTimeout(resolve, PATIENCE_MILLISECONDS));
+    const known = await Promise.race([load(this.#name), nothing]);
     if (known) this.#of.recall(known);
     this.#kept = this.#of.known();
   }
