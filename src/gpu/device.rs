@@ -6,7 +6,7 @@ use std::{
 };
 
 #[cfg(not(target_arch = "wasm32"))]
-use crate::gpu::mutation::Mutation;
+use crate::gpu::{mutation::Mutation, shader::Shader};
 use crate::{
     error::Error,
     gpu::{Kernel, MAX_WORKGROUPS, WORKGROUP, parts, workgroups},
@@ -129,7 +129,7 @@ pub struct Gpu {
     kernels: Arc<Mutex<Vec<KeptKernel>>>,
     /// Whether the device stands for one that may be wrong, and how.
     #[cfg(not(target_arch = "wasm32"))]
-    pub(super) mutation: Option<Option<Mutation>>,
+    mutation: Option<Option<Mutation>>,
 }
 
 /// The name of a kernel, the width for which it is compiled, and the kernel.
@@ -270,6 +270,27 @@ impl Gpu {
             Some(reason) => Error::DeviceLost { reason: reason.clone() },
             None => Error::Gpu { reason: message.to_owned() },
         }
+    }
+}
+
+#[cfg(not(target_arch = "wasm32"))]
+impl Gpu {
+    /// Returns the same device with a shader changed, or with none. All other kernels are compiled once for all devices
+    /// that are made of one.
+    pub fn mutated(&self, mutation: Option<Mutation>) -> Gpu {
+        let mut gpu = self.clone();
+        gpu.mutation = Some(mutation);
+        gpu
+    }
+
+    /// Returns the kernel of a shader, if the device was made by [`Gpu::mutated`].
+    pub(crate) fn mutated_kernel(&self, shader: &'static Shader, width: Width) -> Option<Kernel> {
+        let mutation = self.mutation.as_ref()?;
+        let new = || Kernel::new(self.device(), shader, width, None);
+        Some(match mutation {
+            Some(Mutation { kernel, edit }) if *kernel == shader.name() => new().edited(&**edit),
+            _ => self.kept_kernel(shader.name(), width, new),
+        })
     }
 }
 

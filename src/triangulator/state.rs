@@ -85,7 +85,6 @@ where
 /// The number of points by which the CPU engine is measured: so few that nobody has to wait for it.
 const FEW: usize = 8_000;
 
-
 impl<const D: usize> Opening<D>
 where
     Dimension<D>: Choice<D>,
@@ -141,7 +140,7 @@ pub(super) struct Setup {
     /// Whether the CPU engine makes meshes while kernels are compiled.
     pub(super) compiles_meanwhile: bool,
     /// Whether devices are tested before they are used, if that was set.
-    self_test: Mutex<Option<bool>>,
+    pub(super) self_test: Mutex<Option<bool>>,
 }
 
 impl Setup {

@@ -17,7 +17,7 @@ fn known_answers_are_those_of_the_cpu() {
     for test in &KNOWN_ANSWERS {
         let in_2d = cpu.delaunay2d(&test.points::<2>()).unwrap();
         let in_3d = cpu.delaunay3d(&test.points::<3>()).unwrap();
-        let halfedges: Vec<u32> = in_2d.halfedges.iter().flatten().map(|&h| h as u32).collect();
+        let halfedges: Vec<u32> = in_2d.halfedges.iter().flatten().copied().collect();
         let answers = [
             fingerprint::<2>(in_2d.triangles.as_flattened(), &halfedges),
             fingerprint::<3>(in_3d.tetrahedra.as_flattened(), in_3d.neighbors.as_flattened()),

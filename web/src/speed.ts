@@ -67,7 +67,8 @@ export class Speed {
     if (this.#name === undefined) return;
     const known = this.#of.known();
     // The first word says whether the device has passed its test.
-    const isOld = (word: number, i: number) => (i > 0 ? word > 0.9 * (this.#kept[i] ?? Infinity) : word === this.#kept[0]);
+    const isOld = (word: number, i: number) =>
+      i > 0 ? word > 0.9 * (this.#kept[i] ?? Infinity) : word === this.#kept[0];
     if (known.every(isOld)) return;
     this.#kept = known;
     void save(this.#name, known);

@@ -46,6 +46,9 @@ struct Fit<const D: usize> {
     spacing: f64,
 }
 
+/// A distance of a point from what lies around it, with memory for its neighbours.
+type OfPoint<'a, const D: usize> = dyn Fn([f64; D], &mut Vec<(f64, u32)>) -> f64 + Sync + 'a;
+
 /// Returns the median distance of points from quadrics through their neighbours, in units of the
 /// distance between points.
 ///
@@ -55,7 +58,7 @@ pub(super) fn noise<const D: usize>(points: &[[f64; D]]) -> f64 {
     let tree = Tree::new(points);
     let step = points.len().div_ceil(SAMPLES);
     let samples: Vec<u32> = (0..points.len() as u32).step_by(step).collect();
-    let of_samples = |distance: &(dyn Fn([f64; D], &mut Vec<(f64, u32)>) -> f64 + Sync)| {
+    let of_samples = |distance: &OfPoint<'_, D>| {
         let parts = parallel::map_grains(Threads::All, samples.len(), GRAIN, |range| {
             let mut near = Vec::new();
             samples[range].iter().map(|&i| distance(points[i as usize], &mut near)).collect::<Vec<f64>>()
