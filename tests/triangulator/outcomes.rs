@@ -206,6 +206,18 @@ fn auto_goes_on_in_2d_without_the_device_that_it_lost() {
     assert!(matches!(mesh.stats.fallback, Some(Fallback::Compiling { .. })), "{:?}", mesh.stats.fallback);
 }
 
+#[test]
+fn a_device_that_passes_its_test_is_used() {
+    let engines = Triangulator::new().self_test(true).backend(Backend::Gpu);
+    let points = points();
+    let mesh = engines.delaunay3d(&points).expect("the device computes what it should");
+    assert_eq!((mesh.stats.backend, &mesh.stats.fallback), (Backend::Gpu, &None));
+    same(&points, &mesh);
+    let points = generate2d(Distribution2::Uniform, 3_000, 5);
+    let mesh = engines.delaunay2d(&points).expect("the device computes what it should");
+    assert_eq!(mesh.canonical(), gdel::delaunay2d(&points).expect("triangulates").canonical());
+}
+
 /// On machines with a hardware GPU this test shows nothing.
 #[test]
 fn auto_does_not_take_a_software_adapter() {
