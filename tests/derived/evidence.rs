@@ -197,16 +197,19 @@ fn a_sensor_sees_one_side() {
     assert_eq!(found(&points, &options).evidence(), Evidence::Guess);
 }
 
+/// Returns the directions from the circle in the middle of a torus to points around it.
+fn normals_of_torus(points: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    let outward = |&[x, y, z]: &[f64; 3]| {
+        let r = libm::hypot(x, y);
+        [x - x / r, y - y / r, z]
+    };
+    points.iter().map(outward).collect()
+}
+
 #[test]
 fn normals_decide() {
     let points = torus(6000);
-    let normals: Vec<[f64; 3]> = points
-        .iter()
-        .map(|&[x, y, z]| {
-            let r = libm::hypot(x, y);
-            [x - x / r, y - y / r, z]
-        })
-        .collect();
+    let normals = normals_of_torus(&points);
     let mut options = SurfaceOptions::default();
     options.normals = Some(Points::F64(&normals));
     let surface = found(&points, &options);
@@ -244,13 +247,7 @@ fn normals_turn_terrain_over() {
 fn normals_of_moved_and_dropped_points() {
     let mut points = noisy(&torus(6000), 0.01);
     points.extend(random(30, 9).iter().map(|p| p.map(|x| 4.0 * x - 2.0)));
-    let normals: Vec<[f64; 3]> = points
-        .iter()
-        .map(|&[x, y, z]| {
-            let r = libm::hypot(x, y);
-            [x - x / r, y - y / r, z]
-        })
-        .collect();
+    let normals = normals_of_torus(&points);
     let mut options = SurfaceOptions::default();
     options.normals = Some(Points::F64(&normals));
     let surface = found(&points, &options);

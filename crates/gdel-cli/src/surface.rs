@@ -202,7 +202,7 @@ where
         ("filled_cavities", Number::Count(cavities)),
         ("isolated", Number::Count(surface.isolated())),
         ("noise", Number::Real(surface.noise())),
-        ("side_by", Number::Name(evidence_name(surface.evidence()))),
+        ("side_by", Number::Name(surface.evidence().name())),
         ("smoothed", Number::Truth(surface.moved_points().is_some())),
     ];
     if D == 3 {
@@ -236,17 +236,6 @@ where
         Number::Count(gdel::internals::derived::crossing_facets(&facets, surface.vertices()).len()),
     ));
     facets
-}
-
-/// Returns how it is known which side is inside, in a word.
-fn evidence_name(evidence: Evidence) -> &'static str {
-    match evidence {
-        Evidence::Normals => "normals",
-        Evidence::Sensors => "sensors",
-        Evidence::Below => "below",
-        Evidence::Hull => "hull",
-        Evidence::Guess => "guess",
-    }
 }
 
 /// Returns the vertices in the precision of the points: some formats are smaller for single precision.

@@ -65,6 +65,19 @@ pub enum Evidence {
     Guess,
 }
 
+impl Evidence {
+    /// Returns the name, such as `normals`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Evidence::Normals => "normals",
+            Evidence::Sensors => "sensors",
+            Evidence::Below => "below",
+            Evidence::Hull => "hull",
+            Evidence::Guess => "guess",
+        }
+    }
+}
+
 /// Which side of the surface is beyond a facet or vertex of the hull.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Beyond {

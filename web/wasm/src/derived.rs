@@ -2,8 +2,8 @@
 //! counter-clockwise by the negation of all *y*, which is undone in what is returned.
 
 use gdel::{
-    AlphaShape, Clip, Csr, Error, Evidence, Interpolation, Interpolator, Location, Locator, Mesh, Mesh2, Mesh3, Open,
-    Points, Side, SpanningTree, Surface, SurfaceOptions, Voronoi,
+    AlphaShape, Clip, Csr, Error, Interpolation, Interpolator, Location, Locator, Mesh, Mesh2, Mesh3, Open, Points,
+    Side, SpanningTree, Surface, SurfaceOptions, Voronoi,
     internals::{
         cpu::edit::Used,
         derived::{AlphaEdges, StolenMeasures, SurfaceMesh, VoronoiShapes},
@@ -532,7 +532,7 @@ where
         ("genus", surface.genus().into()),
         ("closed", surface.is_closed().into()),
         ("boundaries", surface.boundaries().into()),
-        ("evidence", name_of(surface.evidence()).into()),
+        ("evidence", surface.evidence().name().into()),
         ("noise", surface.noise().into()),
         ("isolated", surface.isolated().into()),
         ("droppedPieces", pieces.into()),
@@ -613,17 +613,6 @@ fn code_of(side: Side) -> u8 {
         Side::Outside => 0,
         Side::On => 1,
         Side::Inside => 2,
-    }
-}
-
-/// Returns how it is known which side is inside.
-fn name_of(evidence: Evidence) -> &'static str {
-    match evidence {
-        Evidence::Normals => "normals",
-        Evidence::Sensors => "sensors",
-        Evidence::Below => "below",
-        Evidence::Hull => "hull",
-        Evidence::Guess => "guess",
     }
 }
 
