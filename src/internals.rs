@@ -126,7 +126,6 @@ pub mod gpu {
             pub use crate::gpu::primitives::sort::{FEW, Sort, TILE};
         }
     }
-    #[cfg(not(target_arch = "wasm32"))]
     pub mod mutation {
         pub use crate::gpu::mutation::Mutation;
     }

@@ -62,7 +62,6 @@ impl<'a> Compiler<'a> {
 
     /// Creates the kernel of a shader that few runs need. It is compiled when it is used.
     pub fn on_demand(&self, shader: &'static Shader, width: Width) -> Kernel {
-        #[cfg(not(target_arch = "wasm32"))]
         if let Some(kernel) = self.gpu.mutated_kernel(shader, width) {
             return kernel;
         }

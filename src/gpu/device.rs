@@ -5,11 +5,9 @@ use std::{
     time::Duration,
 };
 
-#[cfg(not(target_arch = "wasm32"))]
-use crate::gpu::{mutation::Mutation, shader::Shader};
 use crate::{
     error::Error,
-    gpu::{Kernel, MAX_WORKGROUPS, WORKGROUP, parts, workgroups},
+    gpu::{Kernel, MAX_WORKGROUPS, WORKGROUP, mutation::Mutation, parts, shader::Shader, workgroups},
     input::lattice::Width,
     platform,
 };
@@ -128,7 +126,6 @@ pub struct Gpu {
     /// Kernels that are compiled once for the device.
     kernels: Arc<Mutex<Vec<KeptKernel>>>,
     /// Whether the device stands for one that may be wrong, and how.
-    #[cfg(not(target_arch = "wasm32"))]
     mutation: Option<Option<Mutation>>,
 }
 
@@ -183,15 +180,7 @@ impl Gpu {
     /// so that its loss comes out as [`Error::Gpu`].
     pub fn from_device(device: wgpu::Device, queue: wgpu::Queue) -> Self {
         let adapter = AdapterSummary::new(device.adapter_info(), &device.limits(), device.features());
-        Gpu {
-            device,
-            queue,
-            adapter,
-            lost: Arc::default(),
-            kernels: Arc::default(),
-            #[cfg(not(target_arch = "wasm32"))]
-            mutation: None,
-        }
+        Gpu { device, queue, adapter, lost: Arc::default(), kernels: Arc::default(), mutation: None }
     }
 
     /// Returns the device.
@@ -213,6 +202,24 @@ impl Gpu {
         let kernel = new();
         kernels.push((name, width, kernel.clone()));
         kernel
+    }
+
+    /// Returns the same device with a shader changed, or with none. All other kernels are compiled once for all devices
+    /// that are made of one.
+    pub fn mutated(&self, mutation: Option<Mutation>) -> Gpu {
+        let mut gpu = self.clone();
+        gpu.mutation = Some(mutation);
+        gpu
+    }
+
+    /// Returns the kernel of a shader, if the device was made by [`Gpu::mutated`].
+    pub(crate) fn mutated_kernel(&self, shader: &'static Shader, width: Width) -> Option<Kernel> {
+        let mutation = self.mutation.as_ref()?;
+        let new = || Kernel::new(self.device(), shader, width, None);
+        Some(match mutation {
+            Some(Mutation { kernel, edit }) if *kernel == shader.name() => new().edited(&**edit),
+            _ => self.kept_kernel(shader.name(), width, new),
+        })
     }
 
     /// Returns the adapter that the device runs on.
@@ -270,27 +277,6 @@ impl Gpu {
             Some(reason) => Error::DeviceLost { reason: reason.clone() },
             None => Error::Gpu { reason: message.to_owned() },
         }
-    }
-}
-
-#[cfg(not(target_arch = "wasm32"))]
-impl Gpu {
-    /// Returns the same device with a shader changed, or with none. All other kernels are compiled once for all devices
-    /// that are made of one.
-    pub fn mutated(&self, mutation: Option<Mutation>) -> Gpu {
-        let mut gpu = self.clone();
-        gpu.mutation = Some(mutation);
-        gpu
-    }
-
-    /// Returns the kernel of a shader, if the device was made by [`Gpu::mutated`].
-    pub(crate) fn mutated_kernel(&self, shader: &'static Shader, width: Width) -> Option<Kernel> {
-        let mutation = self.mutation.as_ref()?;
-        let new = || Kernel::new(self.device(), shader, width, None);
-        Some(match mutation {
-            Some(Mutation { kernel, edit }) if *kernel == shader.name() => new().edited(&**edit),
-            _ => self.kept_kernel(shader.name(), width, new),
-        })
     }
 }
 

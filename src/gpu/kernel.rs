@@ -172,7 +172,6 @@ impl Kernel {
     }
 
     /// Compiles the kernel from what `edit` makes of its WGSL.
-    #[cfg(not(target_arch = "wasm32"))]
     pub(crate) fn edited(self, edit: &dyn Fn(String) -> String) -> Self {
         if let Some((shader, width)) = self.shader {
             self.pipeline.get_or_init(|| self.compile(&edit(shader.wgsl(width)), &[]));

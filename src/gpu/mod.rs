@@ -27,7 +27,6 @@ pub mod host;
 mod kernel;
 pub mod layout;
 pub mod message;
-#[cfg(not(target_arch = "wasm32"))]
 pub mod mutation;
 pub(crate) mod parts;
 pub mod phase1;
