@@ -253,7 +253,6 @@ impl SharedDevice {
             Backend::Cpu => to.deliver(MadeMesh::Host(self.by_cpu(points, options)?), None).await,
             Backend::Gpu => {
                 let mut state = self.state.lock().await;
-                state.open::<D>(&self.setup).await?;
                 self.by_gpu(&mut state, points, options, to).await
             }
             Backend::Auto => {
@@ -301,8 +300,8 @@ impl SharedDevice {
         Ok(mesh)
     }
 
-    /// Delivers the mesh of the GPU engine, which is open, and notes how long it takes. If its device gets lost, the next
-    /// run has to open another.
+    /// Delivers the mesh of the GPU engine, opened if it is not, and notes how long it takes. If its device gets lost, the
+    /// next run has to open another.
     async fn by_gpu<const D: usize, L: Deliver<D>>(
         &self,
         state: &mut State,
@@ -313,9 +312,7 @@ impl SharedDevice {
     where
         Dimension<D>: Choice<D>,
     {
-        let Some(engine) = &mut Dimension::<D>::slot(state).engine else {
-            return Err(Error::NoAdapter { reason: "it is not open".to_owned() });
-        };
+        let engine = state.open::<D>(&self.setup).await?;
         let began = Instant::now();
         let options = &options.monotone();
         let result = async {

@@ -16,7 +16,7 @@ use crate::{
     input::points::Points,
     options::Options,
     platform::{
-        self, Instant,
+        Instant,
         gpu::{OPENING, PRIORS, Task},
         records,
     },
@@ -163,11 +163,9 @@ impl Setup {
         self.self_test.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Returns whether a device is tested. Software computes rightly, as tests of this crate show, and slowly. In
-    /// JavaScript outside of browsers, nothing is remembered, and everybody would wait each time.
+    /// Returns whether a device is tested. Software computes rightly, as tests of this crate show, and slowly.
     fn tests(&self, is_software: bool) -> bool {
-        let can_be_tested = platform::CAN_WAIT || self.compiles_meanwhile;
-        self.self_test().unwrap_or(!is_software && can_be_tested)
+        self.self_test().unwrap_or(!is_software)
     }
 }
 

@@ -26,7 +26,7 @@ export interface Kind<Glue extends AnyGlue = any> {
 
 /** What the glue of both dimensions has. */
 interface AnyGlue {
-  WasmTriangulator: new (compilesMeanwhile: boolean) => { close(): Promise<void> };
+  WasmTriangulator: new (compilesMeanwhile: boolean, tests: boolean) => { close(): Promise<void> };
   initSync(module: { module: WebAssembly.Module }): object;
 }
 
@@ -64,8 +64,10 @@ export class Engine<Glue extends AnyGlue = AnyGlue> {
     const instance: Instance<Glue> = instantiate(makeGlue, module, scope);
     this.glue = instance.glue;
     this.memory = instance.memory;
+    // Outside of browsers nothing is remembered, so that everybody would wait for the test.
     this.triangulator = new this.glue.WasmTriangulator(
       COMPILES_MEANWHILE,
+      COMPILES_MEANWHILE && !device,
     ) as typeof this.triangulator;
     this.speed = new Speed(kind.dimension, kind.speed(this.triangulator));
     this.choice = new BackendChoice(this.#gpu, this.memory);

@@ -15,10 +15,11 @@ pub struct WasmTriangulator {
 #[wasm_bindgen]
 impl WasmTriangulator {
     /// Creates a triangulator. If it `compiles_meanwhile`, the backend `auto` has the CPU triangulate while
-    /// kernels are compiled, if that is sooner.
+    /// kernels are compiled, if that is sooner. If it `tests`, hardware is tested before it is used.
     #[wasm_bindgen(constructor)]
-    pub fn new(compiles_meanwhile: bool) -> Self {
-        WasmTriangulator { triangulator: Triangulator::compiling_meanwhile(compiles_meanwhile) }
+    pub fn new(compiles_meanwhile: bool, tests: bool) -> Self {
+        let triangulator = Triangulator::compiling_meanwhile(compiles_meanwhile);
+        WasmTriangulator { triangulator: if tests { triangulator } else { triangulator.self_test(false) } }
     }
 
     /// Releases the device.
