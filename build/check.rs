@@ -1,4 +1,4 @@
-//! Validation of the shaders, and what the host has to know of them.
+//! Validation of the shaders, also by the rules of [`lint`](crate::lint), and what the host has to know of them.
 
 use std::collections::BTreeMap;
 
@@ -7,7 +7,11 @@ use naga::{
     valid::{Capabilities, ValidationFlags, Validator},
 };
 
-use crate::{parts, sources::File};
+use crate::{
+    lint::{Violation, lint},
+    parts,
+    sources::File,
+};
 
 /// What every WebGPU device supports.
 pub const MAX_STORAGE_BUFFERS: usize = 8;
@@ -53,9 +57,10 @@ pub fn in_parts(parts: &[&File]) -> Result<Option<String>, String> {
         return Ok(None);
     };
     let module = parse(&text)?;
-    Validator::new(ValidationFlags::all(), Capabilities::empty())
+    let info = Validator::new(ValidationFlags::all(), Capabilities::empty())
         .validate(&module)
         .map_err(|e| format!("{path}, in parts: {}", e.emit_to_string_with_path(&text, "assembled")))?;
+    lint(&module, &info).map_err(|Violation { what, .. }| format!("{path}, in parts: {what}"))?;
     Ok(Some(text))
 }
 
@@ -77,6 +82,10 @@ pub fn check(parts: &[&File], capabilities: Capabilities) -> Result<Reflection, 
     let info = Validator::new(ValidationFlags::all(), capabilities)
         .validate(&module)
         .map_err(|e| describe(e.location(&wgsl), e.emit_to_string_with_path(&wgsl, "assembled")))?;
+    lint(&module, &info).map_err(|Violation { span, what }| {
+        let location = span.is_defined().then(|| span.location(&wgsl));
+        describe(location, format!("{what} (in the kernel `{}`)", kernel(parts).name))
+    })?;
     let reject = |what: String| Err(format!("{}: {what}", kernel(parts).path()));
 
     let [entry] = &module.entry_points[..] else { return reject("it has not one entry point".to_owned()) };

@@ -4,6 +4,8 @@
 #[cfg(feature = "gpu")]
 mod check;
 #[cfg(feature = "gpu")]
+mod lint;
+#[cfg(feature = "gpu")]
 mod parts;
 #[cfg(feature = "gpu")]
 mod sources;

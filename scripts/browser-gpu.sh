@@ -9,7 +9,8 @@
 #                                                   which they are brought in another way: unpack both into one folder
 #                                                   there, and start its `start.sh [ARGUMENT…]`
 #
-# ARGUMENTS are those of benches/js/browser.mjs, or `test` to run the tests that need a GPU. The other machine needs
+# ARGUMENTS are those of benches/js/browser.mjs, or `test` to run the tests that need a GPU, or `report` for what the page
+# report/ says of the GPU. The other machine needs
 # Linux with the C library of Debian 12 or a newer one, a driver with Vulkan, tar and xz. Chromium, Node, an X server
 # and their libraries are brought along.
 set -euo pipefail

@@ -30,9 +30,12 @@ CUSTOM_LIBFUZZER_PATH=target/libfuzzer.a step cargo check --locked --manifest-pa
 # With the features of the dependencies that clippy has checked them with.
 RUSTDOCFLAGS="-D warnings" step cargo doc --locked --workspace --no-deps --all-features
 step typos
+step ruff check --quiet python
+step ruff format --check --quiet python
 step npm run lint --silent
 step node scripts/circles.mjs
 step node scripts/benchmarks.mjs --check
+step node scripts/devices.mjs --check
 if $online; then
   step cargo deny --all-features check
   step cargo semver-checks

@@ -7,7 +7,8 @@
 # cargo-deny, which it runs with `--online`; `scripts/setup.sh web` what the npm package needs:
 # wasm-pack, wasm-bindgen and the npm packages; `scripts/setup.sh web-tests` what checks and tests
 # it on top: the browsers, Deno and the linter; `scripts/setup.sh browser-gpu` what
-# scripts/browser-gpu.sh bundles.
+# scripts/browser-gpu.sh bundles; `scripts/setup.sh python` what builds and tests the Python package, except for what pip
+# installs.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -19,8 +20,8 @@ fail() {
 
 what=${1:-rust}
 case $what in
-  rust | guard | lints | lints-online | web | web-tests | browser-gpu) ;;
-  *) fail "usage: scripts/setup.sh [guard | lints | lints-online | web | web-tests | browser-gpu]" ;;
+  rust | guard | lints | lints-online | web | web-tests | browser-gpu | python) ;;
+  *) fail "usage: scripts/setup.sh [guard | lints | lints-online | web | web-tests | browser-gpu | python]" ;;
 esac
 
 # System packages: the linker that rustc calls, and a software Vulkan driver (lavapipe) for the
@@ -29,7 +30,7 @@ packages=(g++ gcc libc6-dev libvulkan1 mesa-vulkan-drivers)
 [[ $what != web-tests ]] || packages+=(chromium firefox-esr)
 [[ $what != browser-gpu ]] || packages+=(chromium xvfb x11-xkb-utils xkb-data fonts-dejavu-core xz-utils libegl1 libgles2 libgl1)
 [[ $what != guard ]] || packages+=(valgrind)
-[[ $what != lints* ]] || packages+=(python3-venv)
+[[ $what != lints* && $what != python ]] || packages+=(python3-venv)
 
 install_packages() {
   local missing=() package
@@ -127,13 +128,14 @@ install_biome() {
   npm install --prefix .cache/biome --no-save --no-audit --no-fund --loglevel=error "@biomejs/biome@$version"
 }
 
-# typos checks the spelling.
+# typos checks the spelling, ruff the Python package.
 install_lints() {
-  local typos=1.52.0
-  [[ $(.cache/tools/python/bin/typos --version 2>/dev/null) != "typos-cli $typos" ]] || return 0
-  say "installing typos"
+  local typos=1.52.0 ruff=0.17.6 tools=.cache/tools/python/bin
+  [[ $("$tools/typos" --version 2>/dev/null) != "typos-cli $typos" ||
+    $("$tools/ruff" --version 2>/dev/null) != "ruff $ruff" ]] || return 0
+  say "installing typos and ruff"
   python3 -m venv .cache/tools/python
-  .cache/tools/python/bin/pip install --quiet --disable-pip-version-check "typos==$typos"
+  "$tools/pip" install --quiet --disable-pip-version-check "typos==$typos" "ruff==$ruff"
 }
 
 # cargo-deny checks licences, sources and known vulnerabilities.
@@ -147,6 +149,13 @@ install_deno() {
   say "installing Deno"
   npm install --prefix .cache/tools --no-save --no-audit --no-fund --loglevel=error deno@2.9.6 ||
     say "there is no Deno for this machine: its test will be skipped"
+}
+
+# Where there is no package of it: the whole one, since the shell that has no windows does not use the GPU.
+install_chromium() {
+  [[ -z $(command -v apt-get) ]] || return 0
+  say "installing Chromium"
+  node_modules/.bin/playwright-core install --no-shell chromium
 }
 
 if [[ -n $(command -v apt-get) ]]; then
@@ -170,5 +179,6 @@ esac
 if [[ $what == web-tests ]]; then
   install_biome
   install_deno
+  install_chromium
 fi
 say "ready"

@@ -3,16 +3,21 @@ import { serwist } from '@serwist/vite';
 import { defineConfig } from 'vite';
 
 // The page links to the documents where the package says that they are.
-const { repository } = JSON.parse(
+const { repository, version } = JSON.parse(
   readFileSync(new URL('../web/package.json', import.meta.url), 'utf8'),
 );
+process.env.VITE_VERSION = version;
 process.env.VITE_REPOSITORY = repository.url.replace(/^git\+|\.git$/g, '');
 
 export default defineConfig({
   // Relative addresses: the page works from any folder of any host.
   base: './',
   worker: { format: 'es' },
-  build: { target: 'es2023', chunkSizeWarningLimit: 900 },
+  build: {
+    target: 'es2023',
+    chunkSizeWarningLimit: 900,
+    rolldownOptions: { input: ['index.html', 'report/index.html'] },
+  },
   server: { fs: { allow: ['..'] } },
   plugins: [
     serwist({

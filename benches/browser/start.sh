@@ -1,6 +1,6 @@
 #!/bin/bash
 # Starts what is bundled here (scripts/browser-gpu.sh): an X server and the benchmark, or with `test` the tests that
-# need a GPU.
+# need a GPU, or with `report` the page that writes the report of a device.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 export CHROMIUM=$here/chromium.sh DISPLAY=:77 GDEL_REAL_GPU=1
@@ -21,6 +21,8 @@ done
 cd "$here"
 if [[ ${1:-} == test ]]; then
   GDEL_PACKED=$here/target/browser-gpu/packed bin/node --test tests/web/chromium.test.mjs
+elif [[ ${1:-} == report ]]; then
+  bin/node benches/js/report.mjs "${@:2}"
 else
   bin/node benches/js/browser.mjs "$@"
 fi

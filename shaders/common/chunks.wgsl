@@ -37,7 +37,8 @@ fn chunk_ahead(pass_number: u32, long: bool, chunk: u32, groups: u32, local: u32
 }
 
 // Returns the start of the chunk after the one at `start`; for a long list this is what chunk_ahead has
-// returned. It is a barrier: every invocation of the workgroup must call it.
+// returned. It is a barrier: every invocation of the workgroup must call it. What it returns is beyond the chunk at
+// `start` even where a device loses additions, so that passes end there, too.
 fn next_chunk(start: u32, ahead: u32, long: bool, chunk: u32, groups: u32, local: u32) -> u32 {
     if !long {
         return start + groups * chunk;
@@ -45,5 +46,5 @@ fn next_chunk(start: u32, ahead: u32, long: bool, chunk: u32, groups: u32, local
     if local == 0 {
         chunk_here = ahead;
     }
-    return workgroupUniformLoad(&chunk_here);
+    return max(workgroupUniformLoad(&chunk_here), start + min(chunk, ~start));
 }

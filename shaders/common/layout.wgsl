@@ -89,6 +89,8 @@ struct Control {
     gathered: atomic<u32>,
     removed: atomic<u32>,
     removals: u32,
+    mesh_sum: atomic<u32>,
+    mesh_vertices: atomic<u32>,
     taken: array<atomic<u32>, 5>,
     log: array<array<u32, 5>, LOGGED>,
 

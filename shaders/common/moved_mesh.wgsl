@@ -19,7 +19,7 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) group
         let slot = moved_slot(t);
         var simplex = moved_points(t);
         for (var k = 0u; k < CORNERS; k++) {
-            simplex[k] = vertex_of[simplex[k]];
+            simplex = replaced(simplex, k, vertex_of[simplex[k]]);
         }
         for (var k = 0u; k < CORNERS; k++) {
             var across = moved_across(t, k);

@@ -25,33 +25,37 @@ fn lowest_nearest(v: u32, query: Query) -> u32 {
     nearest[0] = v;
     var lowest = v;
     var len = 1u;
+    // The vertex whose ring is looked at, by its place in the list, and what is left of the ring.
     var next = 0u;
+    var i = ring_offsets[v];
+    var end = ring_offsets[v + 1];
     while next < len {
-        let end = ring_offsets[nearest[next] + 1];
-        var i = ring_offsets[nearest[next]];
-        for (; i < end; i++) {
-            let w = ring[i];
-            let order = compare_distances(w, v, query);
-            if order == UNKNOWN {
-                return OPEN;
+        if i == end {
+            next++;
+            if next < len {
+                i = ring_offsets[nearest[next]];
+                end = ring_offsets[nearest[next] + 1];
             }
-            var is_new = order == 0;
-            for (var j = 0u; j < len; j++) {
-                is_new &= nearest[j] != w;
-            }
-            if is_new {
-                if len == MAX_NEAREST {
-                    return OPEN;
-                }
-                nearest[len] = w;
-                len++;
-                lowest = min(lowest, w);
-            }
+            continue;
         }
-        if i < end {
+        let w = ring[i];
+        i++;
+        let order = compare_distances(w, v, query);
+        if order == UNKNOWN {
             return OPEN;
         }
-        next++;
+        var is_new = order == 0;
+        for (var j = 0u; j < len; j++) {
+            is_new &= nearest[j] != w;
+        }
+        if is_new {
+            if len == MAX_NEAREST {
+                return OPEN;
+            }
+            nearest[len] = w;
+            len++;
+            lowest = min(lowest, w);
+        }
     }
     return select(OPEN, lowest, next == len);
 }

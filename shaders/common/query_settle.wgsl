@@ -25,31 +25,30 @@ fn first_around(t: u32, query: Query) -> u32 {
     around[0] = t;
     var len = 1u;
     var tested = 0u;
-    for (var i = 0u; i < len; i++) {
-        let u = around[i];
-        for (var k = 0u; k < CORNERS; k++) {
-            let side = exact_side(u, k, query);
-            if side == UNKNOWN {
+    for (var i = 0u; i < len * CORNERS; i++) {
+        let u = around[i / CORNERS];
+        let k = i % CORNERS;
+        let side = exact_side(u, k, query);
+        if side == UNKNOWN {
+            return OPEN;
+        }
+        tested++;
+        let next = across(u, k);
+        if side != 0 || next < 0 {
+            continue;
+        }
+        var is_new = true;
+        for (var j = 0u; j < len; j++) {
+            is_new &= around[j] != u32(next);
+        }
+        if is_new {
+            if len == MAX_AROUND {
                 return OPEN;
             }
-            tested++;
-            let next = across(u, k);
-            if side != 0 || next < 0 {
-                continue;
-            }
-            var is_new = true;
-            for (var j = 0u; j < len; j++) {
-                is_new &= around[j] != u32(next);
-            }
-            if is_new {
-                if len == MAX_AROUND {
-                    return OPEN;
-                }
-                around[len] = u32(next);
-                len++;
-                if comes_before(u32(next), first) {
-                    first = u32(next);
-                }
+            around[len] = u32(next);
+            len++;
+            if comes_before(u32(next), first) {
+                first = u32(next);
             }
         }
     }

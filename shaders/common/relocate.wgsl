@@ -21,7 +21,8 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) group
         // NONE if there is no first node.
         var next = status[entry.tet].first - 1;
         var t = entry.tet;
-        while next != NONE {
+        // Each step leads to a later node. On wrong links, no device hangs.
+        for (var steps = 0u; steps <= control.history && next != NONE; steps++) {
             let step = follow(next, entry.point);
             t = step.x;
             next = step.y;

@@ -4,6 +4,13 @@
 
 const EDGES: u32 = 6;
 
+// Returns what is across one of the two facets of t at an edge: the one that does not lead to `before`.
+fn onwards(t: u32, ends: vec2u, before: i32) -> i32 {
+    let next = neighbors[t];
+    let is_facet = (simplices[t] != vec4u(ends.x)) & (simplices[t] != vec4u(ends.y)) & (next != vec4i(before));
+    return select(select(select(select(-1, next.x, is_facet.x), next.y, is_facet.y), next.z, is_facet.z), next.w, is_facet.w);
+}
+
 // Returns whether no tetrahedron around an edge has a lower index than t: both ways around it, each
 // until it leaves the hull; where it does not, the first way comes back.
 fn lists(t: u32, e: u32) -> bool {
@@ -15,20 +22,13 @@ fn lists(t: u32, e: u32) -> bool {
         }
         var before = t;
         var at = across(t, enter);
-        while at >= 0 && u32(at) != t {
+        // On wrong neighbours, no device hangs.
+        for (var steps = 0u; steps < arrayLength(&simplices) && at >= 0 && u32(at) != t; steps++) {
             let here = u32(at);
             if here < t {
                 return false;
             }
-            // Of the two facets at the edge, the one that was not come through.
-            at = -1;
-            for (var k = 0u; k < 4; k++) {
-                let v = corner(here, k);
-                let next = across(here, k);
-                if v != ends.x && v != ends.y && next != i32(before) {
-                    at = next;
-                }
-            }
+            at = onwards(here, ends, i32(before));
             before = here;
         }
         if u32(at) == t {

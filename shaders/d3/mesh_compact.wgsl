@@ -38,8 +38,8 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) group
         for (var k = 0u; k < 4; k++) {
             let point = index_of(tet[k]);
             let there = numbers[near[k] >> 2];
-            points[moved(k, place)] = point;
-            across[moved(k, place)] = (there & ~3u) | moved(near[k] & 3, there & 3);
+            points = replaced(points, moved(k, place), point);
+            across = replaced(across, moved(k, place), (there & ~3u) | moved(near[k] & 3, there & 3));
             if atomicLoad(&vertex_simplex[point]) <= number {
                 atomicMax(&vertex_simplex[point], number + 1);
             }

@@ -95,6 +95,13 @@ fn ends_of(removal: ptr<function, Removal>, edge: u32) -> vec2u {
     return vec2u(simplices[t][c.x], simplices[t][c.y]);
 }
 
+// Bids for the tetrahedra of a removal.
+fn bid_for(removal: ptr<function, Removal>, bid: u32) {
+    for (var j = 0u; j < 2 * (*removal).facets; j++) {
+        atomicMax(&status[(*removal).tets[j]].vote, bid);
+    }
+}
+
 @compute @workgroup_size(WORKGROUP)
 fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) groups: vec3u) {
     // Waiting points would not find their tetrahedra, and what is active may be flipped.
@@ -122,9 +129,7 @@ fn main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) group
                 let i = atomicAdd(&control.next_node, 1u);
                 if i < control.history {
                     removals[i] = removal;
-                    for (var j = 0u; j < 2 * removal.facets; j++) {
-                        atomicMax(&status[removal.tets[j]].vote, control.bid_base + i);
-                    }
+                    bid_for(&removal, control.bid_base + i);
                 }
             }
         }

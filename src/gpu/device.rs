@@ -108,7 +108,11 @@ pub async fn adapters() -> Vec<AdapterSummary> {
 }
 
 fn instance() -> wgpu::Instance {
-    wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle())
+    wgpu::Instance::new(wgpu::InstanceDescriptor {
+        // Such as the compiler for Direct3D, which WGPU_DX12_COMPILER names.
+        backend_options: wgpu::BackendOptions::default().with_env(),
+        ..wgpu::InstanceDescriptor::new_without_display_handle()
+    })
 }
 
 async fn enumerate(instance: &wgpu::Instance) -> Vec<wgpu::Adapter> {
@@ -265,6 +269,11 @@ impl Gpu {
         };
         report.await?;
         result
+    }
+
+    /// Returns the error for a result that no device returns that computes rightly.
+    pub(crate) fn wrong(&self, test: &'static str) -> Error {
+        Error::WrongResults { adapter: self.adapter.name.clone(), test }
     }
 
     /// Returns the error for an operation that failed: the loss of the device, if that is why.

@@ -15,6 +15,7 @@ use crate::{
         device_mesh::{DeviceMesh, MeshArrays},
         dim::{Corners, Dim},
         host::{Answer, Fit, Fitted, Here, Host, Merged, Work},
+        mesh_check::{self, Samples, count_vertices, euler2, samples_of},
         phase1::{Begin, Finish, Phase1, Phase1Run, Phase1Stats, Settings, WayToHost},
         progress,
         update::PARTED,
@@ -406,6 +407,9 @@ where
                 }
             }
         };
+        if let Outcome::Made(MadeMesh::Host(mesh)) = &outcome {
+            mesh_check::check(host, &self.gpu, samples_of_mesh::<D>(mesh)).await?;
+        }
         let stats = match &mut outcome {
             Outcome::Made(made) => made.stats_mut(),
             Outcome::LeftToCpu(stats) => stats,
@@ -478,6 +482,9 @@ where
             Dimension::<D>::trace_round(&mut tracer, gpu, &run).await?;
             let inserted = 1.0 - f64::from(run.waiting()) / points as f64;
             options.report(Phase::Phase1, progress::PHASE_1 + Dimension::<D>::ROUNDS_SHARE * inserted)?;
+            if more && Settings::<D>::is_endless(&run.control().1, points) {
+                return Err(gpu.wrong("the rounds do not come to an end"));
+            }
             if more && settings.is_slow(&run.control().1) {
                 stats.gpu = Some(run.abandon().summary(&self.gpu.adapter().name));
                 return Ok(match moved {
@@ -605,6 +612,18 @@ where
             Ok(None)
         }
     }
+}
+
+/// Returns samples of a mesh in memory, or what is wrong with it.
+fn samples_of_mesh<const D: usize>(mesh: &MeshOf<D>) -> Result<Samples, &'static str>
+where
+    Dimension<D>: MeshArrays<D>,
+{
+    let [simplices, neighbors, hull] = Dimension::<D>::words(mesh);
+    if D == 2 {
+        euler2(count_vertices(mesh.duplicate_of()), simplices.len() / 3, hull.len())?;
+    }
+    Ok(samples_of::<D>(simplices, neighbors))
 }
 
 /// Returns the duplicates, each with the vertex that stands for it.

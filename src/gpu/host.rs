@@ -20,6 +20,7 @@ use crate::{
     input::{lattice::Lattice, order::missing_points, points::Points},
     options::Options,
     parallel::{self, Threads},
+    predicates::filter::PredicateContext,
     stats::Phase,
 };
 use std::fmt::Debug;
@@ -280,6 +281,10 @@ where
     /// Returns the words of the answer to the request in these words, of this kind; `None` if they are
     /// none.
     fn answer(side: &mut Side<'_, D>, kind: u32, request: Vec<Vec<u32>>) -> Option<Vec<Vec<u32>>>;
+
+    /// Returns whether a simplex is positively oriented, and the vertices beyond its facets, where there are any, are
+    /// outside its circumsphere.
+    fn is_delaunay(vertices: &PredicateContext<'_, D>, corners: &[u32], apexes: &[u32]) -> bool;
 }
 
 /// Asks where the points are on the lattice.

@@ -193,6 +193,10 @@ pub struct Counters {
     pub removed: u32,
     /// In 3D: the rounds in which such facets were looked for.
     pub removals: u32,
+    /// The sum of the hashes of the facets of the mesh, which is 0 for every mesh: see [`mesh_check`](crate::gpu::mesh_check).
+    pub mesh_sum: u32,
+    /// In 3D: the points that have one of their tetrahedra.
+    pub mesh_vertices: u32,
     /// For each pass of this flip iteration and of this round, how many entries of its list the workgroups
     /// have taken.
     pub taken: [u32; 5],
@@ -205,7 +209,7 @@ assert_layout!(Counters);
 impl Counters {
     /// Returns the flips of all kinds so far.
     pub fn flips(&self) -> u32 {
-        self.flips_23 + self.flips_32 + self.flips_22
+        self.flips_23.saturating_add(self.flips_32).saturating_add(self.flips_22)
     }
 
     /// Returns the number of active simplices.

@@ -26,6 +26,7 @@ pub mod engine;
 pub mod host;
 mod kernel;
 pub mod layout;
+pub(crate) mod mesh_check;
 pub mod message;
 pub mod mutation;
 pub(crate) mod parts;

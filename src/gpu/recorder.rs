@@ -1,21 +1,22 @@
-//! Recording: many dispatches in one compute pass, and one submission.
+//! Recording: many dispatches in one compute pass and one submission, or in several where a device takes long for them.
 
 use crate::gpu::{Gpu, Kernel, Profiler};
 
-/// Records commands for one submission.
+/// Records commands, and submits them.
 pub struct Recorder<'a> {
     encoder: wgpu::CommandEncoder,
     pass: Option<wgpu::ComputePass<'static>>,
     profiler: Option<&'a mut Profiler>,
     dispatches: usize,
+    /// Those that are submitted already.
+    submitted: usize,
 }
 
 impl<'a> Recorder<'a> {
     /// Starts recording. With a profiler each stage is a compute pass of its own, because browsers
     /// write timestamps only at the ends of passes; without one all stages share a pass.
     pub fn new(gpu: &Gpu, profiler: Option<&'a mut Profiler>) -> Self {
-        let encoder = gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("gdel") });
-        Recorder { encoder, pass: None, profiler, dispatches: 0 }
+        Recorder { encoder: encoder(gpu), pass: None, profiler, dispatches: 0, submitted: 0 }
     }
 
     /// Times the dispatches from here on under `name`.
@@ -49,6 +50,17 @@ impl<'a> Recorder<'a> {
         self.dispatches
     }
 
+    /// Submits what was recorded if these are so many dispatches, and goes on in another submission, so that the device
+    /// can do something else in between. What is profiled stays together.
+    pub fn split(&mut self, gpu: &Gpu, dispatches: usize) {
+        if self.profiler.is_none() && self.dispatches - self.submitted >= dispatches {
+            self.pass = None;
+            let recorded = std::mem::replace(&mut self.encoder, encoder(gpu));
+            gpu.queue().submit([recorded.finish()]);
+            self.submitted = self.dispatches;
+        }
+    }
+
     /// Submits what was recorded.
     pub fn submit(mut self, gpu: &Gpu) -> wgpu::SubmissionIndex {
         self.pass = None;
@@ -57,4 +69,8 @@ impl<'a> Recorder<'a> {
         }
         gpu.queue().submit([self.encoder.finish()])
     }
+}
+
+fn encoder(gpu: &Gpu) -> wgpu::CommandEncoder {
+    gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("gdel") })
 }

@@ -42,13 +42,7 @@ pub struct KnownAnswer {
 
 /// The tests: one for ties on the narrow lattice, one for exact arithmetic on the wide one, and one so large that
 /// lists fill several workgroups.
-pub const KNOWN_ANSWERS: [KnownAnswer; 4] = [
-    KnownAnswer {
-        name: "few",
-        shape: Shape::Uniform,
-        count: 1_000,
-        answers: [0xd665_b062_6a55_2647, 0xe58d_5ea6_7405_61cf],
-    },
+pub const KNOWN_ANSWERS: [KnownAnswer; 3] = [
     KnownAnswer {
         name: "grid",
         shape: Shape::Grid,
@@ -96,23 +90,17 @@ impl KnownAnswer {
 /// Returns a number that depends on the set of simplices and on which are neighbours, and not on their order. There are
 /// `D + 1` words for each simplex in each list.
 pub fn fingerprint<const D: usize>(simplices: &[u32], neighbors: &[u32]) -> u64 {
-    let hash_of = |t: usize| {
-        let corners = simplices.get((D + 1) * t..(D + 1) * (t + 1)).unwrap_or_default();
-        // A sum, so that the order of the corners does not matter.
-        mix(corners.iter().fold(0, |sum, &v| mix(u64::from(v)).wrapping_add(sum)))
-    };
+    let corners: Vec<u64> = simplices.iter().map(|&v| mix(v.into())).collect();
+    // A sum, so that the order of the corners does not matter.
+    let sum_of = |corners: &[u64]| corners.iter().fold(0, |sum: u64, &v| sum.wrapping_add(v));
+    let own: Vec<u64> = corners.chunks_exact(D + 1).map(|corners| mix(sum_of(corners))).collect();
     let across = |&n: &u32| match n {
         NONE => 0,
         // Half-edges in 2D.
-        n if D == 2 => hash_of(n as usize / 3),
-        n => hash_of(n as usize),
+        n => own.get(n as usize / if D == 2 { 3 } else { 1 }).copied().unwrap_or_default(),
     };
-    (0..simplices.len() / (D + 1)).fold(0, |sum: u64, t| {
-        let places = (D + 1) * t..(D + 1) * (t + 1);
-        let own = hash_of(t);
-        let near = places.filter_map(|i| Some(mix(own ^ mix(simplices[i].into()) ^ across(neighbors.get(i)?))));
-        near.fold(sum, u64::wrapping_add)
-    })
+    let facets = corners.iter().zip(neighbors).enumerate();
+    facets.fold(0, |sum, (i, (corner, n))| sum.wrapping_add(mix(own[i / (D + 1)] ^ corner ^ across(n))))
 }
 
 /// Returns a hash, by the last steps of SplitMix64.
@@ -138,8 +126,11 @@ where
         self.kernels(Width::Narrow, 0).await?;
         self.finish_compiling().await?;
         for test in &KNOWN_ANSWERS {
-            if self.fingerprint_of(&test.points()).await? != Some(test.answer::<D>()) {
-                return Err(Error::WrongResults { adapter: self.gpu().adapter().name.clone(), test: test.name });
+            match self.fingerprint_of(&test.points()).await {
+                Ok(found) if found == Some(test.answer::<D>()) => {}
+                // The check of the mesh may notice it first.
+                Ok(_) | Err(Error::WrongResults { .. }) => return Err(self.gpu().wrong(test.name)),
+                Err(error) => return Err(error),
             }
         }
         Ok(())

@@ -2,13 +2,13 @@
 //! references.
 
 use crate::states::{download, read};
-use std::collections::HashSet;
+use std::{collections::HashSet, time::Duration};
 
 use gdel::internals::Options;
 use gdel::internals::d2::gpu::vertex;
 use gdel::internals::gpu::host::{Fit, Here, Host};
 use gdel::internals::gpu::layout::Pick;
-use gdel::internals::gpu::phase1::{Begin, MemorySettings, Phase1, Phase1Run, Settings};
+use gdel::internals::gpu::phase1::{Begin, Budget, MemorySettings, Phase1, Phase1Run, Settings};
 use gdel::internals::gpu::{AdapterChoice, Gpu};
 use gdel::internals::input::lattice::{Lattice, Width};
 use gdel::internals::{dimension::Dimension, gpu::dim::Dim};
@@ -96,5 +96,8 @@ fn every_round_is_valid() {
         let memory = MemorySettings { history: 0, ..settings.memory };
         let narrow = Settings { memory, min_active: 100, ..settings };
         run_and_validate(&gpu, &mut kernels, name, &points, narrow);
+        // A device that takes long gets its work in submissions of a few dispatches.
+        let split = Settings { budget: Budget { submission: Duration::ZERO, ..settings.budget }, ..settings };
+        run_and_validate(&gpu, &mut kernels, name, &points, split);
     }
 }

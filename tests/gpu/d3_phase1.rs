@@ -2,7 +2,7 @@
 //! references of its kernels.
 
 use crate::states::{download, read};
-use std::collections::BTreeSet;
+use std::{collections::BTreeSet, time::Duration};
 
 use crate::d3_inputs::{self as inputs, Input as Points};
 use gdel::internals::d3::mesh::FACETS;
@@ -14,7 +14,7 @@ use gdel::internals::{
         AdapterChoice, Gpu, Parts,
         host::{Fit, Here, Host},
         layout::{Counters, Pick},
-        phase1::{Begin, MemorySettings, Phase1, Phase1Output, Phase1Run, Settings},
+        phase1::{Begin, Budget, MemorySettings, Phase1, Phase1Output, Phase1Run, Settings},
     },
 };
 use gdel::internals::{dimension::Dimension, gpu::dim::Dim};
@@ -229,6 +229,19 @@ fn batches_overlap() {
             run_and_validate(&gpu, &mut kernels, &points, settings);
             run_and_validate(&gpu, &mut kernels, &points, tight(settings));
         }
+    }
+}
+
+/// A device that takes long gets its work in submissions of a few dispatches.
+#[test]
+fn submissions_are_split() {
+    let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("lavapipe or a GPU");
+    let mut kernels = kernels(&gpu);
+    let default = Settings::default();
+    let settings = Settings { budget: Budget { submission: Duration::ZERO, ..default.budget }, ..default };
+    for points in [inputs::two_lines(Width::Narrow, 200), inputs::uniform(Width::Wide, 2000)] {
+        run_and_validate(&gpu, &mut kernels, &points, settings);
+        run_and_validate(&gpu, &mut kernels, &points, tight(settings));
     }
 }
 

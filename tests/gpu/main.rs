@@ -33,6 +33,8 @@ mod d3_predicates;
 mod d3_reference;
 mod d3_reference_predicates;
 mod host;
+mod lint;
+mod mesh_checks;
 mod messages;
 mod moved;
 mod mutants;

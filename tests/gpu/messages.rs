@@ -181,10 +181,16 @@ fn moved<const D: usize>(points: &[[f64; D]], by: f64) -> Vec<[f64; D]> {
 #[test]
 fn a_host_that_sees_bytes_gives_the_same_meshes_in_3d() {
     let mut bench = Bench::<3>::new();
-    // Of these, Phase 1 leaves much to splaying.
-    let mut sphere = generate3d(Distribution3::Sphere, 3000, 5);
-    sphere[2999] = sphere[0];
-    bench.check((&sphere).into());
+    // Of these, Phase 1 leaves much to splaying. Whether that lacks stars depends on the order in which the device
+    // has flipped.
+    for seed in 5..25 {
+        let mut sphere = generate3d(Distribution3::Sphere, 3000, seed);
+        sphere[2999] = sphere[0];
+        bench.check((&sphere).into());
+        if bench.kinds.contains(&3) {
+            break;
+        }
+    }
     bench.check((&generate3d(Distribution3::Grid, 1000, 1)).into());
     let single: Vec<[f32; 3]> =
         generate3d(Distribution3::Uniform, 2000, 2).into_iter().map(|p| p.map(|x| x as f32)).collect();
@@ -201,7 +207,7 @@ fn a_host_that_sees_bytes_gives_the_same_meshes_in_3d() {
     let mesh = bench.check_update(&mesh, (&next).into()).expect("it stays on the device");
     assert_eq!(mesh.stats().update.expect("it is an update").restarted, None);
     // All requests but those for a trace have been made.
-    assert_eq!(bench.kinds, BTreeSet::from([0, 1, 2, 3, 4, 6]));
+    assert_eq!(bench.kinds, BTreeSet::from([0, 1, 2, 3, 4, 6, 7]));
 
     let flat: Vec<[f64; 3]> = uniform.iter().map(|&[x, y, _]| [x, y, 1.0]).collect();
     assert_eq!(bench.why_left((&flat).into()), Some(Fallback::Coplanar));
@@ -227,7 +233,7 @@ fn a_host_that_sees_bytes_gives_the_same_meshes_in_2d() {
     assert_eq!(mesh.stats().update.expect("it is an update").restarted, None);
     // The duplicates part.
     bench.check_update(&mesh, (&next).into());
-    assert_eq!(bench.kinds, BTreeSet::from([0, 1, 2, 3]));
+    assert_eq!(bench.kinds, BTreeSet::from([0, 1, 2, 3, 7]));
 
     let line: Vec<[f64; 2]> = uniform.iter().map(|&[x, _]| [x, 1.0]).collect();
     assert_eq!(bench.why_left((&line).into()), Some(Fallback::Collinear));

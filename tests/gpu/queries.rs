@@ -7,8 +7,9 @@ use gdel::{
         cpu::MeshOf,
         d2::generate::{Distribution2, generate2d},
         d3::generate::{Distribution3, generate3d},
+        derived::StolenMeasures,
         dimension::Dimension,
-        geometry::{Euclidean, Geometry, circumsphere},
+        geometry::{Euclidean, circumsphere},
         gpu::{AdapterChoice, Gpu, Storage, device_mesh::MeshArrays, dim::Dim},
     },
     wgpu,
@@ -36,7 +37,7 @@ macro_rules! check {
         let read = mesh.read(Outputs::ALL).unwrap();
         let locator = DeviceLocator::new(mesh, points).unwrap();
         let found = locator.locate_many(queries).unwrap();
-        let expected = Locator::new(&read, points).unwrap().locate_many(queries).unwrap();
+        let expected = Locator::new(&read, points).unwrap().exact().locate_many(queries).unwrap();
         assert_eq!(found.len(), expected.len(), "{name}");
         for (i, (found, expected)) in found.iter().zip(expected).enumerate() {
             assert_eq!(found, expected, "{name}: query {i} {:?}", Points::from(queries).get(i));
@@ -218,9 +219,9 @@ macro_rules! check_values {
         let double: Vec<f64> = values.iter().map(|&value| value.into()).collect();
         let read = mesh.read(Outputs::ALL).unwrap();
         let found = DeviceLocator::new(mesh, points).unwrap().interpolate_many(&values, queries).unwrap();
-        let on_host = Locator::new(&read, points).unwrap();
+        let on_host = Locator::new(&read, points).unwrap().exact();
         let expected = Interpolator::new(&on_host, &double).unwrap();
-        let expected = expected.interpolate_many(Interpolation::Linear, queries).unwrap();
+        let expected = expected.interpolate_many(Interpolation::Linear, queries).unwrap().values;
         assert_eq!(found.len(), expected.len(), "{name}");
         for (i, (found, expected)) in found.iter().zip(expected).enumerate() {
             let is_same = found.is_nan() && expected.is_nan() || (f64::from(*found) - expected).abs() < 2e-4;
@@ -324,7 +325,7 @@ fn check_spheres<const D: usize, const N: usize>(
 where
     Dimension<D>: Dim<D> + MeshArrays<D>,
     MeshOf<D>: Mesh<D, N>,
-    Euclidean: Geometry<D, N>,
+    Euclidean: StolenMeasures<D, N>,
 {
     let found = locator.circumspheres().unwrap();
     let open = locator.host_answers();

@@ -1,4 +1,5 @@
-// How the tests start browsers: Debian's, or those that CHROMIUM and FIREFOX name.
+// How the tests start browsers: Debian's, or those that CHROMIUM and FIREFOX name. Where there is neither, Chromium is
+// Playwright's: the whole one, since its shell without windows has SwiftShader in place of the GPU.
 
 import { chromium, firefox } from 'playwright-core';
 
@@ -11,8 +12,10 @@ const QUIET = [
   '--disable-sync',
 ];
 
-/** WebGPU, on the software adapter that Chromium has everywhere. */
-export const WEBGPU = ['--enable-unsafe-webgpu', '--use-webgpu-adapter=swiftshader'];
+/** WebGPU, on the software adapter that Chromium has everywhere; with GDEL_REAL_GPU, on the machine's GPU. */
+export const WEBGPU = process.env.GDEL_REAL_GPU
+  ? ['--enable-unsafe-webgpu', '--ignore-gpu-blocklist']
+  : ['--enable-unsafe-webgpu', '--use-webgpu-adapter=swiftshader'];
 
 /** The same with SwiftShader's Vulkan, without which headless Chromium cannot show what WebGPU draws. */
 export const WEBGPU_DRAWING = [
@@ -26,9 +29,11 @@ export const WEBGPU_DRAWING = [
 // only. When the process exits, it kills those that are left.
 process.once('SIGTERM', () => process.exit(1));
 
+const { CHROMIUM = process.platform === 'linux' ? '/usr/bin/chromium' : undefined } = process.env;
+
 export function launchChromium(flags = []) {
   return chromium.launch({
-    executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
+    ...(CHROMIUM ? { executablePath: CHROMIUM } : { channel: 'chromium' }),
     args: [...QUIET, ...flags],
   });
 }

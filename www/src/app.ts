@@ -290,8 +290,8 @@ export class App implements Page {
   }
 
   /**
-   * Finds the surface of the points, which until then are shown as a carved solid, and shows it. Where
-   * they are no scan, and nobody has asked for it, they stay so.
+   * Finds the surface of the points, which are shown until then, and shows it. Where they are no scan, and nobody
+   * has asked for it, they are shown as a carved solid.
    */
   private findSurface(): Promise<void> {
     const run = this.lastRun;

@@ -231,8 +231,9 @@ export class Stage {
     const { filter, alpha, keep, color, apart, layers, source } = settings;
     const isSurface = filter === 'surface';
     return {
-      // Until the surface is found, it is carved.
-      filter: { kind: isSurface && !this.page.surface ? 'carve' : filter, alpha },
+      filter: { kind: filter, alpha },
+      // Until the surface is found.
+      pointsOnly: isSurface && !this.page.surface,
       // A surface is whole unless it was cut by hand.
       plane: { normal: view.normal, keep: this.sweep ?? keep ?? (isSurface ? 1 : null) },
       // Only a recorded run tells the phases.

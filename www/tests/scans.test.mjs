@@ -64,7 +64,7 @@ describe('a scan', () => {
     await drop(page, 'hills.xyz', xyz(airborne()));
     assert.match(await text(page, 'count'), /^8,040 points/);
     const line = await text(page, 'surface-text');
-    assert.match(line, /^Open surface: area [\d,]+ file units²\. 5 stray points left out\.$/);
+    assert.match(line, /^Open surface: area [\d,]+ file units²\. 10 stray points left out\.$/);
     // The hills have 600,000 m² as seen from above, and hardly more.
     const [area] = numbers(line);
     assert.ok(area > 590_000 && area < 630_000, line);
@@ -99,7 +99,11 @@ describe('a scan', () => {
   test('from a tripod without far points is a street with walls, open above', async () => {
     const street = terrestrial().filter((p) => Math.hypot(...p) < 100);
     await drop(page, 'street.xyz', xyz(street));
-    assert.match(await text(page, 'surface-text'), /^Open surface: area [\d,]+ file units²\.$/);
+    // Where the walls end, points are so far from each other that some count as stray: of 15,417 at most 1 %.
+    const line = await text(page, 'surface-text');
+    assert.match(line, /^Open surface: area [\d,]+ file units²\. \d+ stray points left out\.$/);
+    const [area, strays] = numbers(line);
+    assert.ok(area > 3400 && area < 3800 && strays < 155, line);
     await pictureOf(page, 'scan-street');
     await expectAccessible(page, 'street');
   });

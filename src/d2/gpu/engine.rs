@@ -19,15 +19,17 @@ use crate::{
     dimension::Dimension,
     error::Error,
     gpu::{
-        Gpu, Recorder,
-        device_mesh::DeviceMesh,
+        Gpu, Recorder, Storage,
+        device_mesh::{DeviceArrays, DeviceMesh},
         engine::{Complete, MadeMesh, Near},
         host::{Host, Work},
+        mesh_check::{self, count_vertices, euler2, samples2},
         phase1::{Copied, Copies, Ended, Phase1Run},
         progress,
     },
+    index::NONE,
     options::Options,
-    stats::{Fallback, Phase, Stats},
+    stats::{Fallback, Phase},
 };
 
 impl Complete<2> for Dimension<2> {
@@ -65,7 +67,7 @@ impl Complete<2> for Dimension<2> {
         let mut checked = None;
         if near.resident {
             near.end_of_phase1(&ended.stats);
-            let Open { hull, uncertain } = read_open(&mut ended).await?;
+            let (Open { hull, uncertain, .. }, arrays, words) = read_open(&mut ended, near.host.point_count()).await?;
             let merged = ended.read_merged().await?;
             near.stats.phases.push((Phase::Readback, near.stopwatch.lap()));
             let now = check(&mut near, hull, uncertain, merged).await?;
@@ -74,11 +76,15 @@ impl Complete<2> for Dimension<2> {
                 return Ok(Err(Fallback::Folded));
             }
             if now.is_proven {
-                return complete_resident(ended, near, now).await;
+                let vertices = count_vertices(&now.duplicate_of);
+                let samples = euler2(vertices, ended.finite, now.hull.len()).and_then(|()| samples2(words, vertices));
+                mesh_check::check(near.host, ended.gpu, samples).await?;
+                return complete_resident(ended, near, now, arrays).await;
             }
             checked = Some(now);
         }
         let (result, merged) = ended.read().await?;
+        let gpu = ended.gpu;
         let phase1 = ended.release();
         if near.resident {
             near.stats.gpu = Some(phase1.summary(near.adapter));
@@ -93,6 +99,9 @@ impl Complete<2> for Dimension<2> {
         };
         let Checked { mut hull, is_proven, mut turns_once, duplicate_of, .. } = checked;
         if !is_proven {
+            if !is_triangulation(&triangles, &halfedges, near.host.point_count()) {
+                return Err(gpu.wrong("a triangle has a vertex or a neighbour that is none"));
+            }
             let flipped = match near.host.ask(Flip { triangles, halfedges }).await? {
                 Ok(flipped) => flipped,
                 Err(Aborted::BudgetExceeded) => return Ok(Err(Fallback::Flips)),
@@ -106,9 +115,16 @@ impl Complete<2> for Dimension<2> {
             return Ok(Err(Fallback::Folded));
         }
         near.stats.phases.push((Phase::Finish, near.stopwatch.lap()));
-        let mesh = Mesh2 { triangles, halfedges, hull, duplicate_of, dimension: 2, stats: Stats::default() };
+        let mesh = Mesh2 { triangles, halfedges, hull, duplicate_of, dimension: 2, ..Mesh2::default() };
         Ok(Ok(MadeMesh::Host(mesh)))
     }
+}
+
+/// Returns whether all vertices and half-edges are there.
+fn is_triangulation(triangles: &[[u32; 3]], halfedges: &[[u32; 3]], points: usize) -> bool {
+    let edges = 3 * triangles.len();
+    triangles.as_flattened().iter().all(|&v| (v as usize) < points)
+        && halfedges.as_flattened().iter().all(|&e| e == NONE || (e as usize) < edges)
 }
 
 /// Asks the host whether the mesh is that of the true points.
@@ -130,38 +146,50 @@ async fn check<H: Host<2>>(
     Ok(checked)
 }
 
-/// Makes the arrays of a mesh to which nothing is to be done any more on the device.
+/// Adds the hull to the arrays of a mesh to which nothing is to be done any more on the device.
 async fn complete_resident<H: Host<2>>(
     mut ended: Ended<'_, 2>,
     near: Near<'_, H, 2>,
     Checked { hull, duplicate_of, .. }: Checked,
+    mut arrays: DeviceArrays,
 ) -> Result<Result<MadeMesh<2>, Fallback>, Error> {
-    let Ended { gpu, kernels, memory, stats, finite, .. } = &mut ended;
-    let aliases = &memory.bound.aliases;
-    let points = near.host.point_count();
-    let (arrays, dispatches) = kernels.outputs.run(gpu, aliases, *finite, points, &hull).await?;
-    stats.dispatches += dispatches;
-    stats.submits += 1;
+    let gpu = ended.gpu;
+    let write_hull = || {
+        arrays.hull = Storage::for_caller(gpu, "hull of the mesh", hull.len())?;
+        arrays.hull.write(gpu, 0, &hull);
+        gpu.queue().submit([]);
+        Ok(())
+    };
+    gpu.with_error_scope("the mesh", write_hull).await?;
+    ended.stats.submits += 1;
     let readback = ended.kernels.readback.clone();
     let mesh = Mesh2 { duplicate_of, dimension: 2, ..Mesh2::default() };
-    let mesh = DeviceMesh::<2>::new(ended.gpu, &readback, arrays, mesh);
+    let mesh = DeviceMesh::<2>::new(gpu, &readback, arrays, mesh);
     near.stats.gpu = Some(ended.release().summary(near.adapter));
     near.stats.phases.push((Phase::Finish, near.stopwatch.lap()));
     Ok(Ok(MadeMesh::Device(Box::new(mesh))))
 }
 
-/// Reads what the host has to see of any mesh.
-async fn read_open(ended: &mut Ended<'_, 2>) -> Result<Open<Vec<[u32; 2]>, Vec<UncertainTest>>, Error> {
-    let Ended { gpu, kernels, memory, stats, counters, .. } = ended;
+/// Makes the arrays of a mesh of so many points, but for the hull, and reads what the host has to see of any mesh, and what
+/// the check of the arrays has written.
+async fn read_open(
+    ended: &mut Ended<'_, 2>,
+    points: usize,
+) -> Result<(Open<Vec<[u32; 2]>, Vec<UncertainTest>>, DeviceArrays, Vec<u32>), Error> {
+    let Ended { gpu, kernels, memory, stats, counters, finite, .. } = ended;
     let gpu: &Gpu = gpu;
-    let readback = &mut kernels.readback;
-    let (submission, open) = gpu
+    let (outputs, readback, aliases) = (&kernels.outputs, &mut kernels.readback, &memory.bound.aliases);
+    let (submission, open, arrays, checked) = gpu
         .with_error_scope("the result of Phase 1", || {
             let mut copies = Copies { readback, gpu, recorder: Recorder::new(gpu, None) };
-            let open = Open::copy(&mut copies, &memory.buffers, &memory.bound.aliases, counters);
-            Ok((copies.recorder.submit(gpu), open))
+            let open = Open::copy(&mut copies, &memory.buffers, aliases, counters);
+            let (arrays, checked) = outputs.record(gpu, &mut copies.recorder, aliases, *finite, points)?;
+            stats.dispatches += copies.recorder.dispatches();
+            let checked = copies.copy(&checked, checked.len());
+            Ok((copies.recorder.submit(gpu), open, arrays, checked))
         })
         .await?;
     stats.submits += 1;
-    open.receive(&mut Copied { readback: &mut kernels.readback, gpu, submission }).await
+    let mut copied = Copied { readback: &mut kernels.readback, gpu, submission };
+    Ok((open.receive(&mut copied).await?, arrays, copied.receive(checked).await?))
 }

@@ -1,7 +1,11 @@
 //! The end of Phase 1: the mesh without gaps, and what is left open by rounding.
 
 use crate::{
-    d2::gpu::{aliases::Aliases, layout::UncertainTest, outputs::OutputStage},
+    d2::gpu::{
+        aliases::Aliases,
+        layout::{COUNTER_CLOCKWISE, FLAT, UncertainTest},
+        outputs::OutputStage,
+    },
     dimension::Dimension,
     error::Error,
     gpu::{
@@ -44,6 +48,8 @@ pub struct Open<H, U> {
     pub(crate) hull: H,
     /// [`NearMesh::uncertain`].
     pub(crate) uncertain: Option<U>,
+    /// The number of points.
+    pub(crate) points: usize,
 }
 
 impl Reading {
@@ -53,6 +59,7 @@ impl Reading {
         Open {
             hull: copies.copy(&aliases.hull, counters.hull as usize),
             uncertain: (tests <= b.simplices.len()).then(|| copies.copy(&aliases.uncertain, tests)),
+            points: b.points.pairs.len(),
         }
     }
 
@@ -65,12 +72,25 @@ impl Reading {
         self,
         copied: &mut Copied<'_>,
     ) -> Result<Open<Vec<[u32; 2]>, Vec<UncertainTest>>, Error> {
+        let points = self.points;
         let hull = copied.receive(self.hull).await?;
         let uncertain = match self.uncertain {
             Some(tests) => Some(copied.receive(tests).await?),
             None => None,
         };
-        Ok(Open { hull, uncertain })
+        let are_points = |vertices: &[u32]| vertices.iter().all(|&v| (v as usize) < points);
+        // Infinity is one of the vertices of tests.
+        let fits = |test: &UncertainTest| {
+            let others = [COUNTER_CLOCKWISE, FLAT];
+            test.triangle
+                .iter()
+                .chain(Some(&test.beyond).filter(|beyond| !others.contains(beyond)))
+                .all(|&v| v as usize <= points)
+        };
+        if !hull.iter().all(|edge: &[u32; 2]| are_points(edge)) || !uncertain.iter().flatten().all(fits) {
+            return Err(copied.gpu.wrong("an edge of the hull or an uncertain triangle has a vertex that is none"));
+        }
+        Ok(Open { hull, uncertain, points })
     }
 }
 
@@ -98,7 +118,7 @@ impl Finish<2> for Dimension<2> {
         [triangles, halfedges]: [Vec<[u32; 3]>; 2],
         _finite: usize,
     ) -> Result<NearMesh, Error> {
-        let Open { hull, uncertain } = reading.receive(copied).await?;
+        let Open { hull, uncertain, .. } = reading.receive(copied).await?;
         let halfedges = bytemuck::cast_vec(halfedges);
         Ok(NearMesh { mesh: Mesh { triangles, halfedges, hull }, uncertain })
     }

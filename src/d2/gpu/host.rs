@@ -13,6 +13,7 @@ use crate::{
     error::Error,
     gpu::{
         host::{Answer, Fit, MakeStart, Merged, Report, Request, Side, Work, answer_words},
+        mesh_check::Samples,
         message::{Message, Packer, Unpacker, message},
     },
     index::NONE,
@@ -48,8 +49,15 @@ impl Answer<2> for Dimension<2> {
             <MakeStart as Request<2>>::KIND => answer_words::<MakeStart, 2>(side, request),
             Check::KIND => answer_words::<Check, 2>(side, request),
             Flip::KIND => answer_words::<Flip, 2>(side, request),
+            <Samples as Request<2>>::KIND => answer_words::<Samples, 2>(side, request),
             _ => None,
         }
+    }
+
+    fn is_delaunay(vertices: &PredicateContext2<'_>, corners: &[u32], apexes: &[u32]) -> bool {
+        let &[a, b, c] = corners else { return false };
+        let is_outside = |&apex: &u32| apex == NONE || vertices.incircle([a, b, c], apex) < 0;
+        vertices.orient2d(a, b, c) > 0 && apexes.iter().all(is_outside)
     }
 }
 
@@ -175,5 +183,5 @@ fn in_order(edges: &[[u32; 2]], points: usize) -> Vec<u32> {
         next[from as usize] = to;
     }
     let lowest = edges.iter().map(|&[from, _]| from).min();
-    std::iter::successors(lowest, |&v| Some(next[v as usize])).take(edges.len()).collect()
+    std::iter::successors(lowest, |&v| next.get(v as usize).copied().filter(|&v| v != NONE)).take(edges.len()).collect()
 }

@@ -8,6 +8,7 @@ use crate::{
     gpu::{
         Compiler, Gpu, Recorder, Storage,
         device_mesh::{DeviceArrays, MeshArrays, Outputs, with_len},
+        mesh_check::MeshCheck,
         vertex_simplices::VertexSimplices,
     },
     mesh,
@@ -17,46 +18,41 @@ use crate::{
 #[derive(Debug)]
 pub struct OutputStage {
     vertices: VertexSimplices,
+    check: MeshCheck,
 }
 
 impl OutputStage {
     /// Creates the kernels.
     pub fn new(compiler: &Compiler<'_>) -> Self {
-        OutputStage { vertices: VertexSimplices::new::<2>(compiler) }
+        OutputStage { vertices: VertexSimplices::new::<2>(compiler), check: MeshCheck::new::<2>(compiler) }
     }
 
-    /// Makes the arrays of the mesh of `points` points: its first `triangles` triangles, and this
-    /// `hull`. Returns the number of dispatches as well.
+    /// Records that the arrays of the mesh of `points` points are made, but for the hull: its first `triangles` triangles.
+    /// Returns what the check of them writes as well.
     ///
     /// # Errors
     ///
-    /// Returns the errors of [`Gpu::with_error_scope`] and [`Storage::new`].
-    pub(crate) async fn run(
+    /// Returns the errors of [`Storage::new`].
+    pub(crate) fn record(
         &self,
         gpu: &Gpu,
+        recorder: &mut Recorder<'_>,
         mesh: &Aliases,
         triangles: usize,
         points: usize,
-        hull: &[u32],
-    ) -> Result<(DeviceArrays, usize), Error> {
-        gpu.with_error_scope("the mesh", || {
-            let arrays = DeviceArrays::new(gpu, 3, triangles, hull.len(), points)?;
-            arrays.hull.write(gpu, 0, hull);
-            let mut recorder = Recorder::new(gpu, None);
-            let mut copy = |from: &wgpu::Buffer, to: &Storage<u32>| {
-                let bytes = (to.len() * size_of::<u32>()) as u64;
-                if bytes > 0 {
-                    recorder.encoder().copy_buffer_to_buffer(from, 0, to.buffer(), 0, bytes);
-                }
-            };
-            copy(mesh.triangles.buffer(), &arrays.simplices);
-            copy(mesh.halfedges.buffer(), &arrays.neighbors);
-            self.vertices.record(gpu, &mut recorder, &arrays);
-            let dispatches = recorder.dispatches();
-            recorder.submit(gpu);
-            Ok((arrays, dispatches))
-        })
-        .await
+    ) -> Result<(DeviceArrays, Storage<u32>), Error> {
+        let arrays = DeviceArrays::new(gpu, 3, triangles, 0, points)?;
+        let mut copy = |from: &wgpu::Buffer, to: &Storage<u32>| {
+            let bytes = (to.len() * size_of::<u32>()) as u64;
+            if bytes > 0 {
+                recorder.encoder().copy_buffer_to_buffer(from, 0, to.buffer(), 0, bytes);
+            }
+        };
+        copy(mesh.triangles.buffer(), &arrays.simplices);
+        copy(mesh.halfedges.buffer(), &arrays.neighbors);
+        self.vertices.record(gpu, recorder, &arrays);
+        let checked = self.check.record::<2>(gpu, recorder, &arrays)?;
+        Ok((arrays, checked))
     }
 }
 

@@ -28,7 +28,7 @@ use crate::{
     parallel::{self, Threads},
     platform,
     slots::{self, share, unshare},
-    stats::{Fallback, Phase, Stats},
+    stats::{Fallback, Phase},
 };
 use pollster::block_on;
 use std::sync::atomic::Ordering::Relaxed;
@@ -82,7 +82,7 @@ pub(super) async fn complete<H: Host<3>>(
     let FiniteMesh { tetrahedra, neighbors, hull } = patched(triangulation, finite, &patch)?;
     near.stats.phases.push((Phase::Finish, near.stopwatch.lap()));
     near.stats.trace = tracer.map(|tracer| tracer.finish(&tetrahedra));
-    let mesh = Mesh3 { tetrahedra, neighbors, hull, duplicate_of, dimension: 3, stats: Stats::default() };
+    let mesh = Mesh3 { tetrahedra, neighbors, hull, duplicate_of, dimension: 3, ..Mesh3::default() };
     Ok(Ok(MadeMesh::Host(mesh)))
 }
 

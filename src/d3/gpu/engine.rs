@@ -13,6 +13,7 @@ use crate::{
         gpu::{
             exchange::ResidentRun,
             host::Encloses,
+            outputs::MadeArrays,
             stars::{Splayed, splay},
             trace::Tracer,
         },
@@ -24,6 +25,7 @@ use crate::{
         device_mesh::{DeviceMesh, Outputs},
         engine::{Complete, MadeMesh, Moved, Near},
         host::Host,
+        mesh_check,
         phase1::Phase1Run,
         progress,
     },
@@ -95,7 +97,7 @@ async fn complete_resident<H: Host<3>>(
     stats.phases.push((Phase::Splay, stopwatch.lap()));
 
     options.report(Phase::Finish, progress::FINISH)?;
-    let (arrays, hull) = device.outputs(&patch, moved.is_some()).await?;
+    let MadeArrays { arrays, hull, samples, .. } = device.outputs(&patch, &duplicate_of, moved.is_some()).await?;
     let gpu = device.ended.gpu;
     let readback = device.ended.kernels.readback.clone();
     stats.gpu = Some(device.ended.release().summary(adapter));
@@ -106,6 +108,7 @@ async fn complete_resident<H: Host<3>>(
     {
         return Ok(Err(Fallback::Inconsistent("the hull does not enclose its inside once")));
     }
+    mesh_check::check(host, gpu, samples).await?;
     stats.phases.push((Phase::Finish, stopwatch.lap()));
     if let Some(tracer) = tracer {
         let tetrahedra = mesh.read_async(Outputs::SIMPLICES).await?.tetrahedra;

@@ -13,7 +13,6 @@ use crate::{
     error::Error,
     gpu::{
         Gpu, Pending, Recorder, Storage,
-        device_mesh::DeviceArrays,
         host::{Host, Merged, Work},
         layout::{Active, Counters, PARAM_WORDS},
         phase1::{Copied, Copies, Ended, Memory, Phase1Run, Slot, Stage},
@@ -118,6 +117,9 @@ impl<'a> ResidentRun<'a> {
         let mut failed = device.receive_list(&submission, failed, failed_len).await?;
         let uncertain: Vec<Active> = device.receive_list(&submission, uncertain, uncertain_len).await?;
 
+        if failed.iter().any(|&v| v as usize >= points) || uncertain.iter().any(|entry| entry.tet as usize >= slots) {
+            return Err(gpu.wrong("a failed vertex or an uncertain tetrahedron is none"));
+        }
         failed.sort_unstable();
         let mut uncertain: Vec<u32> = uncertain.into_iter().map(|Active { tet, .. }| tet).collect();
         uncertain.sort_unstable();
@@ -133,10 +135,14 @@ impl<'a> ResidentRun<'a> {
         spare: Gathered,
     ) -> Result<Gathered, Error> {
         let Gathering3 { count, tetrahedra, neighbors, slots } = gathering;
+        let len = self.ended.len();
         let Ended { gpu, kernels, stats, .. } = &mut self.ended;
         let gpu: &Gpu = gpu;
         let mut copied = Copied { readback: &mut kernels.readback, gpu, submission: submission.clone() };
         let count = copied.receive(count).await?[0] as usize;
+        if count > tetrahedra.source.len() {
+            return Err(gpu.wrong("more is gathered than there is"));
+        }
         let mut rest = None;
         let ahead = tetrahedra.first.len();
         if count > ahead {
@@ -164,11 +170,15 @@ impl<'a> ResidentRun<'a> {
             }
             None => (tetrahedra, neighbors, slots),
         };
-        Ok(Gathered {
+        let gathered = Gathered {
             tetrahedra: copied.receive_into(tetrahedra, spare.tetrahedra).await?,
             neighbors: copied.receive_into(neighbors, spare.neighbors).await?,
             slots: copied.receive_into(slots, spare.slots).await?,
-        })
+        };
+        if gathered.slots.iter().any(|slot| (slot & SLOT) as usize >= len) {
+            return Err(gpu.wrong("a gathered tetrahedron is none"));
+        }
+        Ok(gathered)
     }
 
     /// Receives a list, and reads the rest of it if it has more than was read ahead.
@@ -247,8 +257,7 @@ impl<'a> ResidentRun<'a> {
         .await
     }
 
-    /// Makes the arrays of the caller's mesh, which has changed by `patch`. Returns the hull as well if
-    /// `reads_hull`.
+    /// Makes the arrays of the caller's mesh, which has changed by `patch`, and reads the hull as well if `reads_hull`.
     ///
     /// # Errors
     ///
@@ -256,8 +265,9 @@ impl<'a> ResidentRun<'a> {
     pub(crate) async fn outputs(
         &mut self,
         patch: &Patch,
+        duplicate_of: &[u32],
         reads_hull: bool,
-    ) -> Result<(DeviceArrays, Vec<[u32; 3]>), Error> {
+    ) -> Result<MadeArrays, Error> {
         let Ended { gpu, kernels, memory, stats, finite, counters, .. } = &mut self.ended;
         let (aliases, buffers) = (&memory.bound.aliases, &memory.buffers);
         let [more, more_ghosts] = patch.more;
@@ -274,11 +284,10 @@ impl<'a> ResidentRun<'a> {
             numbers: &buffers.numbering.numbers,
             params,
         };
-        let MadeArrays { arrays, hull, dispatches } =
-            kernels.outputs.run(gpu, &mut kernels.readback, mesh, reads_hull).await?;
-        stats.dispatches += dispatches;
+        let made = kernels.outputs.run(gpu, &mut kernels.readback, mesh, duplicate_of, reads_hull).await?;
+        stats.dispatches += made.dispatches;
         stats.submits += 1;
-        Ok((arrays, hull))
+        Ok(made)
     }
 
     /// Reads the tetrahedra of the mesh back, and their neighbours, to look at them.

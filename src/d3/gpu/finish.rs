@@ -10,6 +10,8 @@ use crate::{
         layout::{Active, Counters},
         phase1::{Buffers, Copied, Copies, Finish},
     },
+    index::NONE,
+    parallel::{self, Threads},
 };
 
 /// A triangulation whose only facets that are not locally Delaunay cannot be flipped.
@@ -41,6 +43,16 @@ pub struct Reading {
     vertex_simplex: Pending<u32>,
     failed: Pending<u32>,
     uncertain: Pending<Active>,
+}
+
+/// Returns whether all vertices, the last of which is infinity, and all neighbours are there.
+fn is_triangulation(tets: &[[u32; 4]], neighbors: &[[u32; 4]], points: usize) -> bool {
+    let parts = parallel::map_ranges(Threads::All, tets.len(), |range| {
+        let are_vertices = |v: &[u32; 4]| v[..3].iter().all(|&v| (v as usize) < points) && v[3] as usize <= points;
+        let are_here = |across: &[u32; 4]| across.iter().all(|across| ((across >> 2) as usize) < tets.len());
+        tets[range.clone()].iter().all(are_vertices) && neighbors[range].iter().all(are_here)
+    });
+    !parts.contains(&false)
 }
 
 impl Finish<3> for Dimension<3> {
@@ -76,6 +88,16 @@ impl Finish<3> for Dimension<3> {
         let uncertain = copied.receive(reading.uncertain).await?;
 
         vertex_simplex.iter_mut().for_each(|t: &mut u32| *t = t.wrapping_sub(1));
+        let (points, len) = (vertex_simplex.len() - 1, tets.len());
+        if !is_triangulation(&tets, &neighbors, points) {
+            return Err(copied.gpu.wrong("a tetrahedron has a vertex or a neighbour that is none"));
+        }
+        let is_listed = failed.iter().all(|&v: &u32| (v as usize) < points)
+            && uncertain.iter().all(|entry: &Active| (entry.tet as usize) < len)
+            && vertex_simplex.iter().all(|&t| t == NONE || (t as usize) < len);
+        if !is_listed {
+            return Err(copied.gpu.wrong("a failed vertex or an uncertain tetrahedron is none"));
+        }
         failed.sort_unstable();
         let mut uncertain: Vec<[u32; 2]> = uncertain.into_iter().map(|a| [a.tet, a.outcome]).collect();
         uncertain.sort_unstable();

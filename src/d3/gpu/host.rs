@@ -16,6 +16,7 @@ use crate::{
     error::Error,
     gpu::{
         host::{Answer, Fit, MakeStart, Merged, Report, Request, Side, Work, answer_words},
+        mesh_check::Samples,
         message::{Message, Packer, Unpacker, message},
     },
     index::NONE,
@@ -93,8 +94,15 @@ impl Answer<3> for Dimension<3> {
             Encloses::KIND => answer_words::<Encloses, 3>(side, request),
             Facets::KIND => answer_words::<Facets, 3>(side, request),
             Whole::KIND => answer_words::<Whole, 3>(side, request),
+            <Samples as Request<3>>::KIND => answer_words::<Samples, 3>(side, request),
             _ => None,
         }
+    }
+
+    fn is_delaunay(vertices: &PredicateContext<'_, 3>, corners: &[u32], apexes: &[u32]) -> bool {
+        let &[a, b, c, d] = corners else { return false };
+        let is_outside = |&apex: &u32| apex == NONE || vertices.insphere([a, b, c, d], apex) < 0;
+        vertices.orient3d(a, b, c, d) > 0 && apexes.iter().all(is_outside)
     }
 }
 

@@ -13,6 +13,7 @@ use crate::{
     gpu::{
         Compiler, Gpu, Kernel, Readback, Recorder, Storage, append_bindings,
         device_mesh::{DeviceArrays, MeshArrays, Outputs, with_len},
+        mesh_check::{MeshCheck, Samples, count_vertices, samples3},
         phase1::Slot,
         primitives::scan::{GROUPS, Scan},
         shader::{self, assert_layout},
@@ -60,6 +61,7 @@ pub struct OutputStage {
     scan: Scan,
     write: Kernel,
     vertices: VertexSimplices,
+    check: MeshCheck,
 }
 
 /// What the kernels have made.
@@ -69,6 +71,8 @@ pub struct MadeArrays {
     pub arrays: DeviceArrays,
     /// The hull, if it was to be read.
     pub hull: Vec<[u32; 3]>,
+    /// Samples of the mesh for the host, or what is wrong with it.
+    pub(crate) samples: Result<Samples, &'static str>,
     /// The number of dispatches.
     pub dispatches: usize,
 }
@@ -82,25 +86,27 @@ impl OutputStage {
             scan: Scan::new(compiler),
             write: kernel("outputs_write"),
             vertices: VertexSimplices::new::<3>(compiler),
+            check: MeshCheck::new::<3>(compiler),
         }
     }
 
     /// Makes the arrays of the mesh, and waits until the device has done so. Reads the hull in the
-    /// same submission if `reads_hull`.
+    /// same submission if `reads_hull`. All points are vertices but those that are `duplicate_of` others.
     ///
     /// # Errors
     ///
-    /// Returns the errors of [`Gpu::with_error_scope`] and [`Storage::new`], and [`Error::Gpu`] if
+    /// Returns the errors of [`Gpu::with_error_scope`] and [`Storage::new`], and [`Error::WrongResults`] if
     /// there are not as many tetrahedra or facets of the hull as `mesh` says.
     pub async fn run(
         &self,
         gpu: &Gpu,
         readback: &mut Readback,
         mesh: SlotMesh<'_>,
+        duplicate_of: &[u32],
         reads_hull: bool,
     ) -> Result<MadeArrays, Error> {
         let OutputParams { count, infinite, finite, hull } = mesh.params;
-        let (arrays, dispatches, submission, finite_read, hull_len_read, hull_read) = gpu
+        let (arrays, dispatches, submission, (finite_read, hull_len_read, hull_read, checked)) = gpu
             .with_error_scope("the mesh", || {
                 let [finite, hull, points] = [finite, hull, infinite].map(|n| n as usize);
                 let arrays = DeviceArrays::new(gpu, 4, finite, 3 * hull, points)?;
@@ -132,26 +138,31 @@ impl OutputStage {
                 scan.record(&mut recorder);
                 run(&mut recorder, &self.write, count);
                 self.vertices.record(gpu, &mut recorder, &arrays);
+                let checked = self.check.record::<3>(gpu, &mut recorder, &arrays)?;
                 let dispatches = recorder.dispatches();
                 let finite = readback.copy(gpu, recorder.encoder(), scan.sums(), GROUPS, 1);
                 let hull_len = readback.copy(gpu, recorder.encoder(), &hull_len, 0, 1);
                 let hull =
                     reads_hull.then(|| readback.copy(gpu, recorder.encoder(), &arrays.hull, 0, arrays.hull.len()));
-                Ok((arrays, dispatches, recorder.submit(gpu), finite, hull_len, hull))
+                let checked = readback.copy(gpu, recorder.encoder(), &checked, 0, checked.len());
+                Ok((arrays, dispatches, recorder.submit(gpu), (finite, hull_len, hull, checked)))
             })
             .await?;
+        // While the device is at work.
+        let vertices = count_vertices(duplicate_of);
         let counted = readback.receive(gpu, &submission, finite_read).await?;
         let on_hull = readback.receive(gpu, &submission, hull_len_read).await?;
         let hull_words = match hull_read {
             Some(pending) => readback.receive(gpu, &submission, pending).await?,
             None => Vec::new(),
         };
+        let checked = readback.receive(gpu, &submission, checked).await?;
         if (counted[0], on_hull[0]) != (finite, hull) {
-            let reason = "the device and the host count the tetrahedra of the mesh differently".to_owned();
-            return Err(Error::Gpu { reason });
+            return Err(gpu.wrong("the device and the host count the tetrahedra of the mesh differently"));
         }
+        let samples = samples3(checked, vertices, arrays.hull.len() / 3);
         let hull = hull_words.as_chunks().0.to_vec();
-        Ok(MadeArrays { arrays, hull, dispatches })
+        Ok(MadeArrays { arrays, hull, samples, dispatches })
     }
 }
 

@@ -15,7 +15,7 @@ use crate::{
         phase1::Phase1Run,
         progress,
     },
-    stats::{Fallback, Phase, Stats},
+    stats::{Fallback, Phase},
 };
 
 /// Ends the run, and makes the mesh of what is read back as a whole.
@@ -46,6 +46,6 @@ pub(super) async fn complete<H: Host<3>>(
     stats.phases.push((Phase::Splay, stopwatch.lap()));
     options.report(Phase::Finish, progress::FINISH)?;
     stats.trace = tracer.map(|tracer| tracer.finish(&tetrahedra));
-    let mesh = Mesh3 { tetrahedra, neighbors, hull, duplicate_of, dimension: 3, stats: Stats::default() };
+    let mesh = Mesh3 { tetrahedra, neighbors, hull, duplicate_of, dimension: 3, ..Mesh3::default() };
     Ok(Ok(MadeMesh::Host(mesh)))
 }

@@ -28,7 +28,7 @@ use crate::{
     options::Winding,
     stats::Stopwatch,
 };
-use std::collections::VecDeque;
+use std::{collections::VecDeque, time::Duration};
 
 /// Flip iterations are done in one workgroup until this many times as many simplices are active as
 /// when it begins with that.
@@ -146,6 +146,7 @@ where
                 read_before: (kernels.readback.count(), kernels.readback.bytes()),
                 clock,
                 round_clock,
+                dispatch_time: Duration::ZERO,
             },
             kernels,
             plan: Plan::new(rules, start_points as u32, before),

@@ -8,6 +8,7 @@ use crate::{
         dim::{Corners, Dim},
         host::{Fit, Host},
         layout::{COUNTER_WORDS, Counters, PARAM_WORDS},
+        mesh_check::sum_of_phase1,
         phase1::{
             begin::Begin,
             finish::{Aliases, Copied, Copies, Finish},
@@ -106,14 +107,21 @@ where
             .await?;
         let prepared = meanwhile();
         // What was submitted beyond the end had nothing to do, and came before.
-        for Submitted { submission, counters } in std::mem::take(&mut self.submitted) {
+        for Submitted { submission, counters, .. } in std::mem::take(&mut self.submitted) {
             self.kernels.readback.receive(gpu, &submission, counters).await?;
         }
         self.meter.stats.stalls += 1;
         let words = self.kernels.readback.receive(gpu, &submission, counters).await?;
         let finite = self.kernels.readback.receive(gpu, &submission, finite).await?[0] as usize;
         let counters = counters_in(&words);
-        debug_assert_eq!(is_merged, counters.merged > 0, "points are merged before the first round");
+        self.check_lengths(&counters, finite)?;
+        // All points are inserted that are not merged; of a mesh that has moved, duplicates may have parted.
+        let is_counted = D == 3 && !self.has_moved();
+        let vertices = is_counted.then(|| self.device.params.infinite.wrapping_sub(counters.merged));
+        sum_of_phase1([counters.mesh_sum, counters.mesh_vertices], vertices).map_err(|what| gpu.wrong(what))?;
+        if is_merged != (counters.merged > 0) {
+            return Err(gpu.wrong("points are merged after the first round"));
+        }
         self.meter.end(counters);
         self.keep_needed();
         self.kernels.kept.points = self.device.points;
@@ -134,6 +142,19 @@ where
             stats: self.meter.stats,
         };
         Ok((ended, submission, more, prepared))
+    }
+
+    /// Checks the lengths of the lists that the end of Phase 1 has made.
+    fn check_lengths(&self, counters: &Counters, finite: usize) -> Result<(), Error> {
+        let (points, slots) = (self.device.params.infinite as usize, self.device.memory.buffers.simplices.len());
+        let [ghosts, failed, uncertain, hull] =
+            [counters.ghosts, counters.failed, counters.uncertain, counters.hull].map(|len| len as usize);
+        // In 2D, simplices fail, and tests beyond the slots are only counted.
+        let fits = finite.saturating_add(ghosts) <= slots
+            && failed <= if D == 3 { points } else { slots }
+            && (uncertain <= slots || D == 2)
+            && hull <= points;
+        if fits { Ok(()) } else { Err(self.gpu.wrong("a list of the mesh is longer than it can be")) }
     }
 
     /// Leaves what the run needed to the next one of as many points.
@@ -263,7 +284,12 @@ where
     pub(crate) async fn read_merged(&mut self) -> Result<Vec<[u32; 2]>, Error> {
         let merged = match std::mem::replace(&mut self.merged, Merged::Known(Vec::new())) {
             Merged::Coming(submission, merged) => {
-                pairs(self.kernels.readback.receive(self.gpu, &submission, merged).await?)
+                let merged = pairs(self.kernels.readback.receive(self.gpu, &submission, merged).await?);
+                let points = self.memory.buffers.points.pairs.len();
+                if merged.iter().any(|&[_, first]| first as usize >= points) {
+                    return Err(self.gpu.wrong("a point is merged into one that is none"));
+                }
+                merged
             }
             Merged::Known(merged) => merged,
         };

@@ -5,7 +5,6 @@
 //! submitted.
 
 use crate::{
-    error::Error,
     gpu::{
         layout::{Counters, LOGGED, Params, SLOTS_FULL},
         phase1::{
@@ -215,8 +214,12 @@ impl Plan {
     ///
     /// # Errors
     ///
-    /// Returns [`Error::Gpu`] if a round made no progress, so that the run would never end.
-    pub(crate) fn read(&mut self, read: Counters) -> Result<Vec<stats::Round>, Error> {
+    /// Returns what is wrong with counters that no device writes that computes rightly, as when a round made no progress.
+    pub(crate) fn read(&mut self, read: Counters) -> Result<Vec<stats::Round>, &'static str> {
+        let points = self.rules.params.infinite;
+        if !fits(&read, points) {
+            return Err("more points are inserted than there are");
+        }
         let before = std::mem::replace(&mut self.counters, read);
         let Some(Ahead { iterations, .. }) = self.ahead.pop_front() else { return Ok(Vec::new()) };
         let mut rounds = Vec::new();
@@ -225,6 +228,9 @@ impl Plan {
             // The state after the last round of a batch is that which was read.
             let is_last = round == read.round;
             let now = if is_last { read.progress() } else { read.log[round as usize % LOGGED] };
+            if !follows(last, now) || now[0] > points - read.merged {
+                return Err("the counters of a round do not follow those before");
+            }
             let removes = is_last && read.removals > before.removals;
             let known = self.known(last, now, recorded, removes);
             rounds.push(stats::Round {
@@ -235,7 +241,7 @@ impl Plan {
                 ..stats::Round::default()
             });
             if known.inserted == known.inserted_before && known.waiting > 0 {
-                return Err(Error::Gpu { reason: "an insertion round inserted nothing".to_owned() });
+                return Err("an insertion round inserted nothing");
             }
             self.iterations.plan(known);
             last = now;
@@ -274,6 +280,19 @@ impl Plan {
         let min_active = if waits { self.counters.min_active(params, inserted) } else { 0 };
         min_active.max(params.few.saturating_add(1))
     }
+}
+
+/// Returns whether no more points are inserted or merged than there are.
+fn fits(counters: &Counters, points: u32) -> bool {
+    counters.inserted.checked_add(counters.merged).is_some_and(|known| known <= points)
+}
+
+/// Returns whether a round may lead from one [`Counters::progress`] to another: only the active simplices become fewer.
+fn follows([inserted, _, flips, iterations, few]: [u32; 5], now: [u32; 5]) -> bool {
+    let [more_inserted, more_flips, more_iterations, more_few] =
+        [(now[0], inserted), (now[2], flips), (now[3], iterations), (now[4], few)]
+            .map(|(now, last)| now.checked_sub(last));
+    more_inserted.is_some() && more_flips.is_some() && more_iterations >= more_few && more_few.is_some()
 }
 
 /// Returns the counters before the first round, where so many points wait.

@@ -93,7 +93,7 @@ where
         self.record(gpu, recorder, Stage::Start);
     }
 
-    /// Records a batch of rounds, without the start.
+    /// Records a batch of rounds, without the start, and submits so many dispatches of it at a time.
     ///
     /// # Errors
     ///
@@ -104,6 +104,7 @@ where
         stages: &Stages,
         recorder: &mut Recorder<'_>,
         batch: &Batch,
+        piece: usize,
     ) -> Result<(), Error> {
         if batch.grows {
             let more = self.settings.tail_blocks(self.params.infinite);
@@ -112,16 +113,19 @@ where
         if batch.clears_votes {
             self.record(gpu, recorder, Stage::ClearVotes);
         }
-        batch.rounds.iter().for_each(|&round| self.record_round(gpu, recorder, round));
+        batch.rounds.iter().for_each(|&round| self.record_round(gpu, recorder, round, piece));
         Ok(())
     }
 
-    fn record_round(&self, gpu: &Gpu, recorder: &mut Recorder<'_>, round: RoundPlan) {
+    fn record_round(&self, gpu: &Gpu, recorder: &mut Recorder<'_>, round: RoundPlan, piece: usize) {
         if !round.has_moved {
             self.memory.buffers.messages.record_clear(recorder.encoder());
         }
         let workgroups = self.workgroups(gpu);
-        round.stages().into_iter().for_each(|stage| self.memory.bound.record(recorder, stage, workgroups));
+        for stage in round.stages() {
+            self.memory.bound.record(recorder, stage, workgroups);
+            recorder.split(gpu, piece);
+        }
     }
 
     /// Records that `mesh` is taken in place of a start.

@@ -48,6 +48,8 @@ where
 pub(super) struct Submitted {
     pub(super) submission: wgpu::SubmissionIndex,
     pub(super) counters: Pending<u32>,
+    /// The dispatches of its rounds.
+    pub(super) dispatches: usize,
 }
 
 impl<'a, const D: usize> Phase1Run<'a, D>
@@ -100,17 +102,18 @@ where
     /// # Errors
     ///
     /// [`Error::BufferTooLarge`] and [`Error::OutOfDeviceMemory`] when there are more tetrahedra
-    /// than the device can hold; [`Error::DeviceLost`] and [`Error::Gpu`].
+    /// than the device can hold; [`Error::DeviceLost`], [`Error::Gpu`] and [`Error::WrongResults`].
     pub async fn advance(&mut self) -> Result<bool, Error> {
         while !self.plan.is_far_ahead() {
             self.submit().await?;
         }
-        let Some(Submitted { submission, counters }) = self.submitted.pop_front() else {
+        let Some(Submitted { submission, counters, dispatches }) = self.submitted.pop_front() else {
             return Ok(false);
         };
         let words = self.kernels.readback.receive(self.gpu, &submission, counters).await?;
         let read = counters_in(&words);
         let elapsed = self.meter.round_clock.lap();
+        self.meter.dispatch_time = elapsed / dispatches.max(1) as u32;
         if read.long_walks > 0 && self.start.points.len() > D + 1 {
             // A point may lie in no simplex of the start, which the host and the device see with
             // different perturbations. It lies in one of those around the first simplex.
@@ -118,7 +121,7 @@ where
             self.begin_with(StartMesh::of_first(&self.first));
             return Ok(true);
         }
-        let rounds = self.plan.read(read)?;
+        let rounds = self.plan.read(read).map_err(|what| self.gpu.wrong(what))?;
         let time = elapsed / rounds.len().max(1) as u32;
         self.meter.stats.rounds.extend(rounds.into_iter().map(|round| Round { time, ..round }));
         let goes_on = self.plan.goes_on();
@@ -137,16 +140,28 @@ where
     }
 
     fn submit_batch(&mut self) -> Result<Submitted, Error> {
+        let piece = self.piece();
         let Phase1Run { gpu, kernels, device, plan, .. } = self;
         let mut recorder = Recorder::new(gpu, self.profiler.as_deref_mut());
         let batch = plan.next_batch();
         if batch.is_first {
             device.record_start(gpu, &mut recorder, &self.start, plan.counters());
         }
-        device.record_batch(gpu, &kernels.stages, &mut recorder, &batch)?;
+        let before = recorder.dispatches();
+        device.record_batch(gpu, &kernels.stages, &mut recorder, &batch, piece)?;
+        let dispatches = recorder.dispatches() - before;
         self.meter.stats.dispatches += recorder.dispatches();
         let counters = device.read_counters(gpu, &mut kernels.readback, &mut recorder);
-        Ok(Submitted { submission: recorder.submit(gpu), counters })
+        Ok(Submitted { submission: recorder.submit(gpu), counters, dispatches })
+    }
+
+    /// Returns how many dispatches are to be submitted at a time, by the time that those took that were read last.
+    fn piece(&self) -> usize {
+        // The next rounds may insert all others, and take longer by as much.
+        let growth = f64::from(self.device.params.infinite) / f64::from(self.plan.counters().inserted.max(1));
+        let longest = growth * self.meter.dispatch_time.as_secs_f64();
+        // As long as nothing was read, there is no limit.
+        (self.settings().budget.submission.as_secs_f64() / longest) as usize
     }
 
     /// Has all points of the input wait to be inserted into `start`.

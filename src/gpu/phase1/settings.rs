@@ -12,6 +12,7 @@ use crate::{
     options::Winding,
     platform,
 };
+use std::time::Duration;
 
 /// Settings for Phase 1 in `D` dimensions, for experiments: they change the time, and not the set
 /// of simplices.
@@ -86,6 +87,9 @@ pub struct Budget {
     pub flips_per_iteration: u32,
     /// How wrong a mesh may be after its points have moved, so that repairing it pays.
     pub limits: Limits,
+    /// About the longest time that a device is busy with one submission, so that others can use it, too, and that no
+    /// system takes it for dead.
+    pub submission: Duration,
 }
 
 impl<const D: usize> Default for Settings<D>
@@ -102,13 +106,25 @@ where
             few: 256,
             rounds: 1,
             batches: 2,
-            budget: Budget { spare_iterations: 256, flips_per_iteration: 256, limits: Limits::measured(D) },
+            budget: Budget {
+                spare_iterations: 256,
+                flips_per_iteration: 256,
+                limits: Limits::measured(D),
+                submission: Duration::from_millis(30),
+            },
             sort: true,
             way_to_host: platform::MESHES_STAY_ON_DEVICE.then_some(WayToHost::MadeOnDevice),
             winding: Winding::CounterClockwise,
         }
     }
 }
+
+/// Rounds for few points, and points for each further round, beyond which a run does not come to an end on its own. Ordinary
+/// inputs take about ten, and those whose flips wait for each other are given up before ([`Settings::is_slow`]). A round
+/// inserts a point into every simplex that has any: even where each point is half as far from the next as the one before,
+/// coordinates have too few bits for so many rounds.
+const MOST_ROUNDS: usize = 1024;
+const POINTS_PER_ROUND: usize = 64;
 
 /// The smallest tail, in blocks: small inputs seldom have to grow it.
 const MIN_TAIL_BLOCKS: u32 = 64;
@@ -156,6 +172,11 @@ impl<const D: usize> Settings<D> {
                 if is_too_much { Parts::with_bytes(&gpu.device().limits(), largest) } else { None }
             }
         }
+    }
+
+    /// Returns whether a run with so many points has taken more rounds than it can.
+    pub(crate) fn is_endless(counters: &Counters, points: usize) -> bool {
+        counters.round as usize > MOST_ROUNDS + points / POINTS_PER_ROUND
     }
 
     /// Returns whether the flips of a run wait for each other, so that the CPU engine finishes

@@ -45,7 +45,7 @@ pub(crate) enum Stage {
     Remove,
     /// Marks the simplices of the mesh; in 3D also the failed vertices (§3.2.1).
     Mark,
-    /// Copies the marked simplices without gaps, and notes what rounding leaves open.
+    /// Copies the marked simplices without gaps, checks what comes of it, and notes what rounding leaves open.
     Compact,
     /// Gathers the simplices of the stars that are wanted.
     Gather,
@@ -125,6 +125,7 @@ impl Stage {
                     &[
                         Step::new("compact mesh", "mesh_number").only_3d(),
                         Step::new("compact mesh", "mesh_compact"),
+                        Step::new("check mesh", "mesh_sum"),
                         Step::new("certify", "certify").only_3d(),
                     ]
                 }

@@ -70,6 +70,8 @@ pub(crate) struct Meter {
     pub(crate) clock: Stopwatch,
     /// Since the last batch was read.
     pub(crate) round_clock: Stopwatch,
+    /// How long a dispatch of the last batch took that was read.
+    pub(crate) dispatch_time: Duration,
 }
 
 impl Meter {

@@ -1,3 +1,4 @@
+import type { Spread } from './plane';
 import { PLAIN } from './skin';
 
 /**
@@ -34,11 +35,7 @@ export interface CutOf {
   /** What is in each part, in words: other contents have other ones. */
   parts: Record<CutPart, string>;
   /** The direction of the heights, and what the plane's height follows from. */
-  heights: {
-    normal: readonly [number, number, number];
-    extent: [number, number];
-    middle: number;
-  };
+  heights: Spread;
   /** Whether the outside looks different. */
   skin: boolean;
 }

@@ -26,9 +26,13 @@ export interface Kept {
 /** Keeps the tetrahedra whose radius is at most alpha; all without radii. */
 export function keep(radii: Float32Array | null, alpha: number, neighbors: Int32Array): Kept {
   const kept = new Uint8Array(neighbors.length / 4);
-  if (!radii) kept.fill(1);
-  else for (let t = 0; t < kept.length; t++) kept[t] = radii[t] <= alpha ? 1 : 0;
   const rim = new Uint8Array(kept.length);
+  if (!radii) {
+    kept.fill(1);
+    for (let f = 0; f < neighbors.length; f++) if (neighbors[f] < 0) rim[f >> 2] = 1;
+    return { kept, rim };
+  }
+  for (let t = 0; t < kept.length; t++) kept[t] = radii[t] <= alpha ? 1 : 0;
   for (let t = 0; t < kept.length; t++) {
     if (!kept[t]) continue;
     for (let f = 4 * t; f < 4 * t + 4; f++) {

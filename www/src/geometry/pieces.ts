@@ -25,12 +25,12 @@ export interface Pieces {
 /**
  * Of the tetrahedra that a filter keeps below a level, those nearest to the surface, at most
  * `most`: layer by layer, from the facets of the boundary inwards. What lies deeper could hardly be
- * seen.
+ * seen. Without heights, nothing is cut.
  */
 export function outermost(
   { neighbors }: Tetrahedralisation,
   { kept }: Kept,
-  { height }: Heights,
+  heights: Heights | null,
   level: number,
   { facets }: Boundary,
   most: number,
@@ -47,7 +47,7 @@ export function outermost(
   for (let next = 0; next < end && end < most; next++) {
     for (let f = 4 * queue[next]; f < 4 * queue[next] + 4 && end < most; f++) {
       const u = neighbors[f];
-      if (u < 0 || taken[u] || !kept[u] || height[u] > level) continue;
+      if (u < 0 || taken[u] || !kept[u] || (heights && heights.height[u] > level)) continue;
       taken[u] = 1;
       queue[end++] = u;
     }

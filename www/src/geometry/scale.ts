@@ -2,6 +2,11 @@ import type { Measures } from './measures';
 
 export type ColorBy = 'quality' | 'volume' | 'circumradius' | 'phase';
 
+/** What has measures, which are worked out when they are asked for. */
+export interface Measured {
+  readonly measured: Measures;
+}
+
 /** How a quantity is laid out on the colour map. */
 export interface ColorScale {
   by: ColorBy;
@@ -10,14 +15,17 @@ export interface ColorScale {
   kind: 'linear' | 'log' | 'phases';
 }
 
+/** The scale for quality. */
+export const QUALITY: ColorScale = { by: 'quality', domain: [0, 1], kind: 'linear' };
+
 /**
  * The scale for a quantity of the tetrahedra that a filter keeps: quality from 0 to 1, lengths and
  * volumes from the 1st to the 99th percentile, by logarithm.
  */
-export function scaleFor(by: ColorBy, measures: Measures, kept: Uint8Array): ColorScale {
-  if (by === 'quality') return { by, domain: [0, 1], kind: 'linear' };
+export function scaleFor(by: ColorBy, of: Measured, kept: Uint8Array): ColorScale {
+  if (by === 'quality') return QUALITY;
   if (by === 'phase') return { by, domain: [0, 1], kind: 'phases' };
-  return scaleOf(by, measures[by], kept);
+  return scaleOf(by, of.measured[by], kept);
 }
 
 /** The scale for lengths and volumes of what is kept: from the 1st to the 99th percentile. */
@@ -34,13 +42,16 @@ export function scaleOf(
  */
 export function mapping(
   scale: ColorScale,
-  measures: Measures,
+  of: Measured,
   created: Uint8Array | null,
 ): (t: number) => number {
   const { by, kind } = scale;
   if (kind === 'phases') return (t) => (created?.[t] ? 1 : 0);
-  if (by === 'quality') return (t) => measures.radiusRatio[t];
-  return positionOn(scale, measures[by === 'volume' ? 'volume' : 'circumradius']);
+  if (by === 'quality') {
+    let ratios: Float32Array | null = null;
+    return (t) => (ratios ??= of.measured.radiusRatio)[t];
+  }
+  return positionOn(scale, of.measured[by === 'volume' ? 'volume' : 'circumradius']);
 }
 
 /** From an index of lengths or volumes to its position on the map, 0 to 1. */

@@ -23,23 +23,28 @@ export interface Surface {
   owners: Uint32Array;
 }
 
-/** The boundary of the whole tetrahedra whose centroids are at most as high as `level`. */
+/**
+ * The boundary of the whole tetrahedra whose centroids are at most as high as `level`. Without
+ * heights, of all that are kept.
+ */
 export function boundaryOf(
   { neighbors }: Tetrahedralisation,
   { kept, rim }: Kept,
-  { height, reach }: Heights,
+  heights: Heights | null,
   level: number,
 ): Boundary {
+  const isCut = (t: number) => heights !== null && heights.height[t] > level;
+  const isNearCut = (t: number) => heights !== null && !(heights.reach[t] <= level);
   let facets = new Uint32Array(1 << 16);
   let count = 0;
   let shown = 0;
   for (let t = 0; t < kept.length; t++) {
-    if (kept[t] === 0 || height[t] > level) continue;
+    if (kept[t] === 0 || isCut(t)) continue;
     shown++;
-    if (rim[t] === 0 && reach[t] <= level) continue;
+    if (rim[t] === 0 && !isNearCut(t)) continue;
     for (let f = 4 * t; f < 4 * t + 4; f++) {
       const u = neighbors[f];
-      if (u >= 0 && kept[u] === 1 && height[u] <= level) continue;
+      if (u >= 0 && kept[u] === 1 && !isCut(u)) continue;
       if (count === facets.length) {
         const larger = new Uint32Array(2 * count);
         larger.set(facets);
@@ -51,11 +56,15 @@ export function boundaryOf(
   return { facets: facets.slice(0, count), shown };
 }
 
-/** The triangles of some facets; those of the outside have its colours, if it is given. */
+/**
+ * The triangles of some facets; those of the outside have its colours, if it is given.
+ *
+ * @param value the position on the colour scale, of a tetrahedron and the number of its facet
+ */
 export function surfaceOf(
   { positions, tetrahedra, neighbors }: Tetrahedralisation,
   facets: Uint32Array,
-  value: (t: number) => number,
+  value: (t: number, i: number) => number,
   outside: Outside | null,
 ): Surface {
   const corners = new Float32Array(9 * facets.length);
@@ -75,7 +84,7 @@ export function surfaceOf(
       corners[9 * i + 3 * j + 2] = positions[p + 2];
     }
     owners[i] = t;
-    values.fill(value(t), 3 * i, 3 * i + 3);
+    values.fill(value(t, i), 3 * i, 3 * i + 3);
   }
   return { positions: corners, values, skin, owners };
 }

@@ -67,8 +67,9 @@ export function detectUp(points: ArrayLike<number>, { axis: custom, unless }: Cu
   const axes = ['x', 'y', 'z'] as const;
   const count = points.length / 3;
   if (count === 0 || unless === 'never') return custom;
+  const step = Math.ceil(count / ENOUGH);
   const ranges = axes.map((_, axis) => {
-    const sample = new Sample(count, (i) => points[3 * i + axis]);
+    const sample = new Sample(Math.ceil(count / step), (i) => points[3 * step * i + axis]);
     return [sample.quantile(BEYOND), sample.quantile(1 - BEYOND)] as const;
   });
   const extents = ranges.map(([low, high]) => high - low);
@@ -144,11 +145,14 @@ export function poseFor(
 ): [number, number, number, number, number, number] {
   const count = positions.length / 3;
   if (count === 0) return [AZIMUTH, 0.24, 2.85, 0, 0, 0];
+  const step = Math.ceil(count / ENOUGH);
   const along = (direction: Vector) => {
     const [x, y, z] = fromScreen(up, direction);
-    const at = (i: number) =>
-      x * positions[3 * i] + y * positions[3 * i + 1] + z * positions[3 * i + 2];
-    const [low, high] = new Sample(count, at).range;
+    const at = (i: number) => {
+      const p = 3 * step * i;
+      return x * positions[p] + y * positions[p + 1] + z * positions[p + 2];
+    };
+    const [low, high] = new Sample(Math.ceil(count / step), at).range;
     return { middle: (low + high) / 2, half: (high - low) / 2 };
   };
   const elevation = along([0, 1, 0]).half < 0.25 ? 0.62 : 0.24;

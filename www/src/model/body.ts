@@ -1,7 +1,13 @@
 import type { CutOf } from '../geometry/cut';
 import { type Measures, measure } from '../geometry/measures';
 import type { Tetrahedralisation } from '../geometry/mesh';
-import { type Heights, heightsAlong, type Plane } from '../geometry/plane';
+import {
+  type Heights,
+  heightsAlong,
+  type Plane,
+  type Spread,
+  spreadAlong,
+} from '../geometry/plane';
 import type { ColorScale } from '../geometry/scale';
 import type { DrawRequest } from './model';
 
@@ -12,7 +18,8 @@ let bodies = 0;
 export class Body implements Tetrahedralisation {
   readonly number = bodies++;
   private measures: Measures | null = null;
-  private heights: Heights | null = null;
+  private spread: Spread | null = null;
+  private heights: { normal: string; of: Heights } | null = null;
 
   constructor(
     /** Three coordinates a point, in the units of the input. */
@@ -26,9 +33,21 @@ export class Body implements Tetrahedralisation {
     return (this.measures ??= measure(this.points, this.tetrahedra));
   }
 
+  /** Whether {@link measured} is worked out. */
+  get isMeasured(): boolean {
+    return this.measures !== null;
+  }
+
+  spreadAlong(normal: Plane['normal']): Spread {
+    if (this.spread?.normal.join() !== normal.join())
+      this.spread = spreadAlong(normal, this.positions);
+    return this.spread!;
+  }
+
   heightsAlong(normal: Plane['normal']): Heights {
-    if (this.heights?.normal.join() !== normal.join()) this.heights = heightsAlong(normal, this);
-    return this.heights!;
+    if (this.heights?.normal !== normal.join())
+      this.heights = { normal: normal.join(), of: heightsAlong(normal, this) };
+    return this.heights.of;
   }
 }
 
@@ -37,7 +56,7 @@ export function cutOf(
   { number, tetrahedra, positions }: Body,
   { filter, skin }: DrawRequest,
   scale: ColorScale,
-  { normal, extent, middle }: Heights,
+  spread: Spread,
 ): CutOf {
   const mesh = `mesh ${number}`;
   return {
@@ -48,11 +67,11 @@ export function cutOf(
       neighbors: mesh,
       positions: mesh,
       colors: mesh,
-      heights: `${mesh} along ${normal}`,
+      heights: `${mesh} along ${spread.normal}`,
       filtered: `${mesh} filtered ${JSON.stringify(filter)}`,
       values: `${mesh} on ${JSON.stringify(scale)}`,
     },
-    heights: { normal, extent, middle },
+    heights: spread,
     skin,
   };
 }

@@ -81,6 +81,8 @@ export interface DrawRequest {
   cells?: number | null;
   /** Whether the GPU that draws finds the surface of a cut mesh by itself, so that none is made. */
   onGpu?: boolean;
+  /** Whether the points alone are drawn, in 3D. */
+  pointsOnly?: boolean;
 }
 
 /** What to draw, and what the legend says. */

@@ -96,7 +96,8 @@ export class Model2d implements Model {
 
   draw({ filter, color, skin, voronoi }: DrawRequest): Drawing {
     const started = performance.now();
-    const { circumradius } = this.measured;
+    const { measured } = this;
+    const { circumradius } = measured;
     const alpha = this.alphas.of(filter);
     const kept = new Uint8Array(circumradius.length);
     const all = new Uint32Array(circumradius.length);
@@ -106,12 +107,12 @@ export class Model2d implements Model {
       kept[t] = 1;
       all[count++] = t;
     }
-    const scale = scaleFor(color, this.measured, kept);
+    const scale = scaleFor(color, { measured }, kept);
     this.drawing = {
       surface: flatSurface(
         this.drawable,
         all.slice(0, Math.min(count, MAX_FACETS)),
-        mapping(scale, this.measured, null),
+        mapping(scale, { measured }, null),
         skin ? (this.about.colors?.rgb ?? null) : null,
       ),
       pieces: null,

@@ -6,8 +6,8 @@ import { circumcenter, measure } from '../geometry/measures';
 import { FACETS, type Frame, frameOf, toFrame } from '../geometry/mesh';
 import { firstHit, placeOf, type Ray } from '../geometry/pick';
 import { outermost, piecesOf, trianglesOf } from '../geometry/pieces';
-import { type Heights, heightsAlong, keepOf, levelOf } from '../geometry/plane';
-import { mapping, positionOn, scaleFor, scaleOf } from '../geometry/scale';
+import { heightsAlong, keepOf, levelOf, type Plane, spreadAlong } from '../geometry/plane';
+import { mapping, positionOn, QUALITY, scaleFor, scaleOf } from '../geometry/scale';
 import { boundaryOf, type Surface, surfaceOf } from '../geometry/surface';
 import { detectUp, poseFor } from '../geometry/up';
 import type { About } from './about';
@@ -48,7 +48,7 @@ export class Model3d implements Model {
     cut: CutOf;
     body: Body;
     kept: Kept;
-    heights: Heights;
+    normal: Plane['normal'];
     value: (t: number) => number;
     /** Makes the surface. */
     surface: () => Surface;
@@ -149,7 +149,9 @@ export class Model3d implements Model {
         ? this.drawRound(request, round)
         : cells !== null && this.diagram
           ? this.drawCells(request, this.diagram, cells)
-          : this.drawResult(request);
+          : request.pointsOnly
+            ? this.drawPoints(request)
+            : this.drawResult(request);
     return this.drawing;
   }
 
@@ -157,8 +159,8 @@ export class Model3d implements Model {
   private drawCells({ plane }: DrawRequest, diagram: VoronoiArrays, apart: number): Drawing {
     const started = performance.now();
     const { positions, frame } = this;
-    const heights = this.whole.heightsAlong(plane.normal);
-    const level = levelOf(plane, heights);
+    const spread = this.whole.spreadAlong(plane.normal);
+    const level = levelOf(plane, spread);
     const [nx, ny, nz] = plane.normal;
     const kept = new Uint8Array(positions.length / 3);
     let [shown, total] = [0, 0];
@@ -180,11 +182,32 @@ export class Model3d implements Model {
       shown,
       total,
       leftOut: 0,
-      keep: keepOf(plane, heights),
-      half: keepOf({ ...plane, keep: null }, heights),
+      keep: keepOf(plane, spread),
+      half: keepOf({ ...plane, keep: null }, spread),
       level,
       alpha: null,
       cells: true,
+      round: null,
+      milliseconds: performance.now() - started,
+    };
+  }
+
+  /** The points, until the surface that they were taken from is found. */
+  private drawPoints({ plane }: DrawRequest): Drawing {
+    const started = performance.now();
+    const spread = this.whole.spreadAlong(plane.normal);
+    return {
+      surface: null,
+      pieces: null,
+      voronoi: null,
+      scale: QUALITY,
+      shown: 0,
+      total: this.mesh.tetrahedra.length / 4,
+      leftOut: 0,
+      keep: keepOf(plane, spread),
+      half: keepOf({ ...plane, keep: null }, spread),
+      level: -Infinity,
+      alpha: null,
       round: null,
       milliseconds: performance.now() - started,
     };
@@ -195,19 +218,25 @@ export class Model3d implements Model {
     const started = performance.now();
     const body = (this.drawn = this.bodyOf(filter));
     const kept = this.keptBy(filter);
-    const heights = body.heightsAlong(plane.normal);
-    const level = levelOf(plane, heights);
+    const spread = body.spreadAlong(plane.normal);
+    const level = levelOf(plane, spread);
+    // Of what is not cut, nobody has to know how high it is.
+    const heights = level < Infinity ? body.heightsAlong(plane.normal) : null;
     const boundary = boundaryOf(body, kept, heights, level);
     const open = body === this.whole ? null : this.scanned!.facets;
     if (open) boundary.facets = boundary.facets.filter((facet) => open[facet] === 1);
     const created = body === this.whole ? this.created : null;
     const by = color === 'phase' && !created ? 'quality' : color;
-    const scale = scaleFor(by, body.measured, kept.kept);
-    const value = mapping(scale, body.measured, created);
+    const scale = scaleFor(by, body, kept.kept);
+    const value = mapping(scale, body, created);
     const outside = skin ? { kept: kept.kept, colors: this.about.colors?.rgb ?? null } : null;
-    const surface = () => surfaceOf(body, boundary.facets.subarray(0, MAX_FACETS), value, outside);
-    const cut = cutOf(body, request, scale, heights);
-    if (!pieces) this.last = { cut, body, kept, heights, value, surface };
+    const surface = () => {
+      const facets = boundary.facets.subarray(0, MAX_FACETS);
+      const isEarly = by === 'quality' && !body.isMeasured;
+      return surfaceOf(body, facets, isEarly ? qualitiesAt(facets, body) : value, outside);
+    };
+    const cut = cutOf(body, request, scale, spread);
+    if (!pieces) this.last = { cut, body, kept, normal: plane.normal, value, surface };
     return {
       surface: pieces || (onGpu && !open) ? null : surface(),
       // The GPU would list what an open surface is closed by.
@@ -226,8 +255,8 @@ export class Model3d implements Model {
       shown: boundary.shown,
       total: this.mesh.tetrahedra.length / 4,
       leftOut: pieces ? 0 : Math.max(0, boundary.facets.length - MAX_FACETS),
-      keep: keepOf(plane, heights),
-      half: keepOf({ ...plane, keep: null }, heights),
+      keep: keepOf(plane, spread),
+      half: keepOf({ ...plane, keep: null }, spread),
       level,
       alpha: this.alphas.of(filter),
       round: null,
@@ -239,32 +268,33 @@ export class Model3d implements Model {
   private drawRound({ plane, color }: DrawRequest, round: number): Drawing {
     const started = performance.now();
     const { tetrahedra } = this.mesh.trace!.rounds[round];
-    const measures = measure(this.points, tetrahedra);
+    const measured = measure(this.points, tetrahedra);
     const mesh = {
       positions: this.positions,
       tetrahedra,
       neighbors: new Int32Array(tetrahedra.length).fill(-1),
     };
+    const spread = spreadAlong(plane.normal, this.positions);
+    const level = levelOf(plane, spread);
     const heights = heightsAlong(plane.normal, mesh);
-    const level = levelOf(plane, heights);
     const owners = Uint32Array.from(heights.height.keys())
       .filter((t) => heights.height[t] <= level)
       .slice(0, MAX_PIECES);
     const scale = scaleFor(
       color === 'phase' ? 'quality' : color,
-      measures,
+      { measured },
       new Uint8Array(tetrahedra.length / 4).fill(1),
     );
     return {
       surface: null,
-      pieces: piecesOf(mesh, owners, mapping(scale, measures, null), null),
+      pieces: piecesOf(mesh, owners, mapping(scale, { measured }, null), null),
       voronoi: null,
       scale,
       shown: owners.length,
       total: tetrahedra.length / 4,
       leftOut: 0,
-      keep: keepOf(plane, heights),
-      half: keepOf({ ...plane, keep: null }, heights),
+      keep: keepOf(plane, spread),
+      half: keepOf({ ...plane, keep: null }, spread),
       level,
       alpha: null,
       round,
@@ -332,7 +362,7 @@ export class Model3d implements Model {
   ): ArrayBufferView<ArrayBuffer> | null {
     const { last } = this;
     if (last?.cut.parts[part] !== contents) return null;
-    const { body, kept, heights, value } = last;
+    const { body, kept, normal, value } = last;
     const { positions } = body;
     switch (part) {
       case 'tetrahedra':
@@ -340,7 +370,7 @@ export class Model3d implements Model {
       case 'neighbors':
         return body.neighbors.slice(4 * from, 4 * to);
       case 'heights':
-        return inOrder(heights.height.subarray(from, to));
+        return inOrder(body.heightsAlong(normal).height.subarray(from, to));
       case 'filtered':
         return filterBytes(kept.kept.subarray(from, to), kept.rim.subarray(from, to));
       case 'values':
@@ -356,8 +386,7 @@ export class Model3d implements Model {
   surface(filter: Filter): SurfaceMesh {
     const colors = this.about.colors?.rgb ?? null;
     if (filter.kind === 'surface' && this.scanned) return this.scanned.triangles(colors);
-    const heights = this.whole.heightsAlong([0, 0, 1]);
-    const { facets } = boundaryOf(this.whole, this.keptBy(filter), heights, Infinity);
+    const { facets } = boundaryOf(this.whole, this.keptBy(filter), null, Infinity);
     const { tetrahedra } = this.mesh;
     const triangles = new Uint32Array(3 * facets.length);
     for (let i = 0; i < facets.length; i++) {
@@ -399,6 +428,23 @@ function valuesOf(
   const values = new Float32Array(to - from);
   for (let i = 0; i < values.length; i++) values[i] = value(from + i);
   return values;
+}
+
+/**
+ * The quality of the tetrahedra of some facets, by the numbers of these: it is there long before all
+ * tetrahedra of a large mesh are measured.
+ */
+function qualitiesAt(
+  facets: Uint32Array,
+  { points, tetrahedra }: Body,
+): (t: number, i: number) => number {
+  const corners = new Uint32Array(4 * facets.length);
+  for (let i = 0; i < facets.length; i++) {
+    const t = 4 * (facets[i] >>> 2);
+    for (let k = 0; k < 4; k++) corners[4 * i + k] = tetrahedra[t + k];
+  }
+  const { radiusRatio } = measure(points, corners);
+  return (_, i) => radiusRatio[i];
 }
 
 /** How large a sphere may be, in units of the frame, to be drawn with its tetrahedron. */

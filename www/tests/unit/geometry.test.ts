@@ -6,7 +6,7 @@ import { FACETS, frameOf, toFrame } from '../../src/geometry/mesh';
 import { neighborsOf } from '../../src/geometry/neighbors';
 import { firstHit, placeOf } from '../../src/geometry/pick';
 import { outermost, piecesOf, skinOf, trianglesOf } from '../../src/geometry/pieces';
-import { heightsAlong, levelOf } from '../../src/geometry/plane';
+import { heightsAlong, levelOf, spreadAlong } from '../../src/geometry/plane';
 import { mapping, scaleFor } from '../../src/geometry/scale';
 import { PLAIN } from '../../src/geometry/skin';
 import { carvingRadii, criticalStops, solidRadius, spacingOf } from '../../src/geometry/solid';
@@ -137,8 +137,10 @@ describe('the cut', () => {
     for (const keep of [0, 0.3, 0.5, 1]) {
       test(`along ${normal} at ${keep} bounds just the tetrahedra below it`, () => {
         const heights = heightsAlong(normal, mesh);
-        const level = levelOf({ normal, keep }, heights);
+        const level = levelOf({ normal, keep }, spreadAlong(normal, mesh.positions));
         const { facets, shown } = boundaryOf(mesh, all, heights, level);
+        if (level === Infinity)
+          assert.deepEqual(boundaryOf(mesh, all, null, level), { facets, shown });
         const below = Array.from(heights.height.keys()).filter((t) => heights.height[t] <= level);
         assert.equal(shown, below.length);
         const surface = surfaceOf(mesh, facets, () => 0.5, null);
@@ -160,7 +162,7 @@ describe('the cut', () => {
       mesh,
       all,
       heights,
-      levelOf({ normal: [1, 0, 0], keep: 1 }, heights),
+      levelOf({ normal: [1, 0, 0], keep: 1 }, spreadAlong([1, 0, 0], mesh.positions)),
     );
     assert.equal(shown, count);
     assert.equal(facets.length, 6 * 2 * SIDE * SIDE);
@@ -354,7 +356,7 @@ describe('the skin', () => {
   const outside = { kept: all.kept, colors };
 
   test('is on the outside and not on the cut', () => {
-    const level = levelOf({ normal: [1, 0, 0], keep: 0.5 }, heights);
+    const level = levelOf({ normal: [1, 0, 0], keep: 0.5 }, spreadAlong([1, 0, 0], mesh.positions));
     const { facets } = boundaryOf(mesh, all, heights, level);
     const { skin, positions: triangles } = surfaceOf(mesh, facets, () => 0, outside);
     let cut = 0;
@@ -407,10 +409,14 @@ test('a ray meets the nearest triangle that faces it', () => {
 
 test('scales leave out the extremes and stay within the map', () => {
   const kept = all.kept;
-  const scale = scaleFor('volume', measures, kept);
+  const scale = scaleFor('volume', { measured: measures }, kept);
   closeTo(scale.domain[0], 1 / 6, 5);
   closeTo(scale.domain[1], 1 / 3, 5);
-  const value = mapping(scale, measures, null);
+  const value = mapping(scale, { measured: measures }, null);
   for (let t = 0; t < count; t++) assert.ok(value(t) >= 0);
-  closeTo(mapping(scaleFor('quality', measures, kept), measures, null)(4), 1, 5);
+  closeTo(
+    mapping(scaleFor('quality', { measured: measures }, kept), { measured: measures }, null)(4),
+    1,
+    5,
+  );
 });

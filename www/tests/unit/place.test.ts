@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import { describe, test } from 'node:test';
 import { frameOf } from '../../src/geometry/mesh';
-import { heightsAlong, keepOf, levelOf } from '../../src/geometry/plane';
+import { keepOf, levelOf, spreadAlong } from '../../src/geometry/plane';
 import { Sample } from '../../src/geometry/range';
 import { axisFacing, detectUp, fromScreen, toScreen, UPS, type Up } from '../../src/geometry/up';
 import { closeTo } from './close';
@@ -74,23 +74,18 @@ describe('the cutting plane', () => {
     const random = randomNumbers(5);
     const positions = new Float32Array(3 * 10_000).map(() => random());
     positions.fill(-1000, 0, 60);
-    const heights = heightsAlong([0, 0, 1], {
-      positions,
-      tetrahedra: new Uint32Array(),
-      neighbors: new Int32Array(),
-    });
+    const spread = spreadAlong([0, 0, 1], positions);
     const plane = { normal: [0, 0, 1], keep: null } as const;
-    const level = levelOf(plane, heights);
+    const level = levelOf(plane, spread);
     const below = positions.filter((x, i) => i % 3 === 2 && x < level).length;
     assert.ok(Math.abs(below - 5000) < 100, `${below} below`);
-    const share = keepOf(plane, heights);
+    const share = keepOf(plane, spread);
     assert.ok(share > 0.4 && share < 0.7, `the slider is at ${share}`);
   });
 
   test('opens the object even where half of the points lie on the wall in front', () => {
     const positions = Float32Array.from({ length: 3000 }, (_, i) => (i % 2 ? 1 : (i % 600) / 600));
-    const mesh = { positions, tetrahedra: new Uint32Array(), neighbors: new Int32Array() };
-    const share = keepOf({ normal: [0, 0, 1], keep: null }, heightsAlong([0, 0, 1], mesh));
+    const share = keepOf({ normal: [0, 0, 1], keep: null }, spreadAlong([0, 0, 1], positions));
     assert.ok(share > 0.3 && share < 0.7, `the slider is at ${share}`);
   });
 
