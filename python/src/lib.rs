@@ -1,0 +1,44 @@
+//! The extension module of the Python package `gdel`: meshes in Rust's memory, which NumPy sees without a copy.
+//!
+//! What is not hot is written in Python, in `python/gdel`; nothing here is public there.
+
+mod arrays;
+mod compute;
+mod core;
+mod derived;
+mod errors;
+mod mesh;
+mod queries;
+mod tree;
+mod voronoi;
+
+use pyo3::prelude::*;
+
+/// Returns the GPUs of this machine as dictionaries.
+#[pyfunction]
+fn adapters(py: Python<'_>) -> PyResult<Vec<Bound<'_, pyo3::types::PyDict>>> {
+    compute::note_gpu(py)?;
+    let adapters = py.detach(gdel::adapters);
+    let dictionary = |adapter: &gdel::AdapterSummary| {
+        let dictionary = pyo3::types::PyDict::new(py);
+        dictionary.set_item("name", &adapter.name)?;
+        dictionary.set_item("backend", &adapter.backend)?;
+        dictionary.set_item("driver", &adapter.driver)?;
+        dictionary.set_item("software", adapter.software)?;
+        Ok(dictionary)
+    };
+    adapters.iter().map(dictionary).collect()
+}
+
+/// The extension module.
+#[pymodule(name = "_gdel", gil_used = false)]
+fn gdel_module(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    compute::note_process();
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add("GpuError", module.py().get_type::<errors::GpuError>())?;
+    module.add_class::<mesh::Mesh>()?;
+    module.add_class::<tree::Tree>()?;
+    module.add_function(wrap_pyfunction!(adapters, module)?)?;
+    module.add_function(wrap_pyfunction!(mesh::triangulate, module)?)?;
+    module.add_function(wrap_pyfunction!(mesh::restore, module)?)
+}

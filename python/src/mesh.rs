@@ -1,0 +1,469 @@
+//! Meshes.
+
+use crate::{
+    arrays::{self, Input, PyCsr},
+    compute::{self, Options},
+    core::{Arrays, Core, Data, Derives},
+    derived,
+    errors::exception,
+    queries::{self, Method},
+    tree::Tree,
+    voronoi,
+};
+use gdel::{Error, Mesh2, Mesh3, Points, internals::geometry::Euclidean};
+use numpy::{PyArray1, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
+use pyo3::{exceptions::PyValueError, prelude::*, types::PyDict};
+
+/// A mesh of either dimension, which does not change any more.
+pub(crate) enum Either {
+    Two(Data<Mesh2, 2, 3>),
+    Three(Data<Mesh3, 3, 4>),
+}
+
+/// Calls a function with the mesh of a dimension.
+macro_rules! in_dimension {
+    ($mesh:expr, $($path:ident)::+($($argument:expr),*)) => {
+        match &$mesh.either {
+            Either::Two(data) => $($path)::+::<Mesh2, 2, 3>(data, $($argument),*),
+            Either::Three(data) => $($path)::+::<Mesh3, 3, 4>(data, $($argument),*),
+        }
+    };
+}
+
+/// A triangulation without its points, which each method takes.
+#[pyclass(frozen, module = "gdel._gdel")]
+pub(crate) struct Mesh {
+    either: Either,
+    /// The number of threads for what is derived; that of the process by default.
+    threads: Option<usize>,
+}
+
+impl Mesh {
+    fn two(mesh: Mesh2, threads: Option<usize>) -> Self {
+        Mesh { either: Either::Two(Data::new(mesh)), threads }
+    }
+
+    fn three(mesh: Mesh3, threads: Option<usize>) -> Self {
+        Mesh { either: Either::Three(Data::new(mesh)), threads }
+    }
+}
+
+/// Triangulates points.
+#[pyfunction]
+#[pyo3(signature = (points, backend, threads, progress))]
+pub(crate) fn triangulate(
+    py: Python<'_>,
+    points: &Bound<'_, PyAny>,
+    backend: &str,
+    threads: Option<usize>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Mesh> {
+    let options = Options::new(backend, threads, progress)?;
+    let input = Input::new(points)?;
+    if input.dimension() == 2 {
+        let points = input.points()?;
+        let mesh = compute::triangulate(py, &options, points.len(), |by| Mesh2::triangulate(by, points))?;
+        Ok(Mesh::two(mesh, threads))
+    } else {
+        let points = input.points()?;
+        let mesh = compute::triangulate(py, &options, points.len(), |by| Mesh3::triangulate(by, points))?;
+        Ok(Mesh::three(mesh, threads))
+    }
+}
+
+/// The arrays of a mesh and its dimension, as they are pickled.
+type State<'py> = (Vec<Bound<'py, PyAny>>, u8);
+
+/// Returns the mesh of arrays that `state` has returned.
+#[pyfunction]
+#[pyo3(signature = (arrays, dimension, threads))]
+pub(crate) fn restore(
+    arrays: (
+        PyReadonlyArray2<'_, i32>,
+        PyReadonlyArray2<'_, i32>,
+        PyReadonlyArray1<'_, i32>,
+        PyReadonlyArray1<'_, i32>,
+    ),
+    dimension: u8,
+    threads: Option<usize>,
+) -> PyResult<Mesh> {
+    fn words(slice: &[i32]) -> &[u32] {
+        bytemuck::cast_slice(slice)
+    }
+    fn parts<const N: usize>(
+        (simplices, links, hull, duplicate_of): (&[i32], &[i32], &[i32], &[i32]),
+        dimension: u8,
+    ) -> Arrays<N> {
+        Arrays {
+            simplices: words(simplices).as_chunks().0.to_vec(),
+            links: words(links).as_chunks().0.to_vec(),
+            hull: words(hull).to_vec(),
+            duplicate_of: words(duplicate_of).to_vec(),
+            dimension,
+        }
+    }
+    let corners = arrays.0.shape()[1];
+    let slices = (arrays.0.as_slice()?, arrays.1.as_slice()?, arrays.2.as_slice()?, arrays.3.as_slice()?);
+    match corners {
+        3 => Ok(Mesh::two(Mesh2::from_arrays(parts(slices, dimension)), threads)),
+        4 => Ok(Mesh::three(Mesh3::from_arrays(parts(slices, dimension)), threads)),
+        _ => Err(PyValueError::new_err("the arrays are not those of a mesh")),
+    }
+}
+
+#[pymethods]
+impl Mesh {
+    /// The affine dimension of the points.
+    #[getter]
+    fn dimension(&self) -> u8 {
+        match &self.either {
+            Either::Two(data) => data.mesh.dimension,
+            Either::Three(data) => data.mesh.dimension,
+        }
+    }
+
+    /// The vertices of each simplex.
+    #[getter]
+    fn simplices<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        in_dimension!(self, simplices(py))
+    }
+
+    /// The simplices opposite the vertices of each simplex.
+    #[getter]
+    fn neighbors<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        in_dimension!(self, neighbors(py))
+    }
+
+    /// The facets of the hull.
+    #[getter]
+    fn hull<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        in_dimension!(self, hull(py))
+    }
+
+    /// For each point the one that stands for it, or −1.
+    #[getter]
+    fn duplicate_of<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        match &self.either {
+            Either::Two(data) => arrays::view(py, data.mesh.clone(), &data.mesh.duplicate_of, None),
+            Either::Three(data) => arrays::view(py, data.mesh.clone(), &data.mesh.duplicate_of, None),
+        }
+    }
+
+    /// A simplex of each vertex, or −1.
+    fn vertex_simplex<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<i32>>> {
+        let found = compute::run(py, self.threads, || {
+            Ok(match &self.either {
+                Either::Two(data) => data.mesh.vertex_triangle(),
+                Either::Three(data) => data.mesh.vertex_tetrahedron(),
+            })
+        })?;
+        Ok(arrays::list(py, found))
+    }
+
+    /// The neighbours of each vertex.
+    fn vertex_neighbors<'py>(&self, py: Python<'py>) -> PyResult<PyCsr<'py>> {
+        let found = compute::run(py, self.threads, || {
+            Ok(match &self.either {
+                Either::Two(data) => data.mesh.vertex_neighbors(),
+                Either::Three(data) => data.mesh.vertex_neighbors(),
+            })
+        })?;
+        Ok(arrays::csr(py, found))
+    }
+
+    /// The edges.
+    fn edges<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let found = compute::run(py, self.threads, || {
+            Ok(match &self.either {
+                Either::Two(data) => data.mesh.edges().collect(),
+                Either::Three(data) => data.mesh.edges().collect::<Vec<_>>(),
+            })
+        })?;
+        Ok(arrays::index_rows(py, found)?.into_any())
+    }
+
+    /// Circumcentres, circumradii, volumes and ratios of radii.
+    fn shapes<'py>(&self, py: Python<'py>, points: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyDict>> {
+        in_dimension!(self, derived::shapes(py, &Input::new(points)?, self.threads))
+    }
+
+    /// The statistics of the run as JSON.
+    fn stats(&self) -> PyResult<String> {
+        let stats = match &self.either {
+            Either::Two(data) => &data.mesh.stats,
+            Either::Three(data) => &data.mesh.stats,
+        };
+        serde_json::to_string(stats).map_err(|error| PyValueError::new_err(error.to_string()))
+    }
+
+    /// What `restore` takes.
+    fn state<'py>(&self, py: Python<'py>) -> PyResult<State<'py>> {
+        in_dimension!(self, state(py))
+    }
+
+    /// The simplex that contains each query, or −1.
+    fn locate<'py>(
+        &self,
+        py: Python<'py>,
+        points: &Bound<'py, PyAny>,
+        queries: &Bound<'py, PyAny>,
+    ) -> PyResult<Bound<'py, PyArray1<i32>>> {
+        in_dimension!(self, queries::locate(py, &Input::new(points)?, &Input::new(queries)?, self.threads))
+    }
+
+    /// The vertex nearest to each query, or −1.
+    fn nearest<'py>(
+        &self,
+        py: Python<'py>,
+        points: &Bound<'py, PyAny>,
+        queries: &Bound<'py, PyAny>,
+    ) -> PyResult<Bound<'py, PyArray1<i32>>> {
+        in_dimension!(self, queries::nearest(py, &Input::new(points)?, &Input::new(queries)?, self.threads))
+    }
+
+    /// The `k` vertices nearest to each query.
+    fn nearest_k<'py>(
+        &self,
+        py: Python<'py>,
+        points: &Bound<'py, PyAny>,
+        queries: &Bound<'py, PyAny>,
+        k: usize,
+    ) -> PyResult<PyCsr<'py>> {
+        in_dimension!(self, queries::nearest_k(py, &Input::new(points)?, &Input::new(queries)?, k, self.threads))
+    }
+
+    /// The interpolated value at each query.
+    #[pyo3(signature = (points, values, queries, method))]
+    fn interpolate<'py>(
+        &self,
+        py: Python<'py>,
+        points: &Bound<'py, PyAny>,
+        values: PyReadonlyArray1<'py, f64>,
+        queries: &Bound<'py, PyAny>,
+        method: (String, String, f64, String),
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let (input, queries) = (Input::new(points)?, Input::new(queries)?);
+        let (interpolation, outside, fill, duplicates) = method;
+        let method = Method::new(&interpolation, &outside, fill, &duplicates)?;
+        in_dimension!(self, queries::interpolate(py, &input, values.as_slice()?, &queries, &method, self.threads))
+    }
+
+    /// The Voronoi diagram, clipped to nothing, "hull" or a box.
+    #[pyo3(signature = (points, clip))]
+    fn voronoi<'py>(
+        &self,
+        py: Python<'py>,
+        points: &Bound<'py, PyAny>,
+        clip: &Bound<'py, PyAny>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        in_dimension!(self, voronoi::diagram(py, &Input::new(points)?, clip, self.threads))
+    }
+
+    /// Ridges and regions as SciPy has them.
+    fn voronoi_ridges<'py>(&self, py: Python<'py>, points: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyDict>> {
+        in_dimension!(self, voronoi::ridges(py, &Input::new(points)?, self.threads))
+    }
+
+    /// The alpha shape of a radius, or of the smallest one for so many components.
+    #[pyo3(signature = (points, alpha, components))]
+    fn alpha_shape<'py>(
+        &self,
+        py: Python<'py>,
+        points: &Bound<'py, PyAny>,
+        alpha: Option<f64>,
+        components: usize,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        in_dimension!(self, derived::alpha_shape(py, &Input::new(points)?, alpha, components, self.threads))
+    }
+
+    /// The surface, with the options as a dictionary.
+    fn surface<'py>(
+        &self,
+        py: Python<'py>,
+        points: &Bound<'py, PyAny>,
+        options: &Bound<'py, PyDict>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        in_dimension!(self, derived::surface(py, &Input::new(points)?, options, self.threads))
+    }
+
+    /// The minimum spanning tree.
+    fn spanning_tree(&self, py: Python<'_>, points: &Bound<'_, PyAny>) -> PyResult<Tree> {
+        in_dimension!(self, derived::spanning_tree(py, &Input::new(points)?, self.threads))
+    }
+
+    /// What an exact check of the mesh has found.
+    fn verify<'py>(&self, py: Python<'py>, points: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyDict>> {
+        in_dimension!(self, derived::verify(py, &Input::new(points)?, self.threads))
+    }
+
+    /// The mesh of the same points after they have moved.
+    #[pyo3(signature = (points, backend, progress))]
+    fn update(
+        &self,
+        py: Python<'_>,
+        points: &Bound<'_, PyAny>,
+        backend: &str,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Mesh> {
+        let (input, options) = (Input::new(points)?, Options::new(backend, self.threads, progress)?);
+        let either = match &self.either {
+            Either::Two(data) => Either::Two(updated(data, py, &input, &options)?),
+            Either::Three(data) => Either::Three(updated(data, py, &input, &options)?),
+        };
+        Ok(Mesh { either, threads: self.threads })
+    }
+
+    /// The mesh with these points as well, and all points.
+    #[pyo3(signature = (points, new, backend, progress))]
+    fn insert<'py>(
+        &self,
+        py: Python<'py>,
+        points: &Bound<'py, PyAny>,
+        new: &Bound<'py, PyAny>,
+        backend: &str,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<(Mesh, Bound<'py, PyAny>)> {
+        let (input, new) = (Input::new(points)?, Input::new(new)?);
+        let options = Options::new(backend, self.threads, progress)?;
+        let (either, points) = match &self.either {
+            Either::Two(data) => {
+                let (data, points) = inserted(data, py, &input, &new, &options)?;
+                (Either::Two(data), points)
+            }
+            Either::Three(data) => {
+                let (data, points) = inserted(data, py, &input, &new, &options)?;
+                (Either::Three(data), points)
+            }
+        };
+        Ok((Mesh { either, threads: self.threads }, points))
+    }
+
+    /// The mesh without these points, whose numbers stay unused.
+    #[pyo3(signature = (points, indices, backend, progress))]
+    fn remove(
+        &self,
+        py: Python<'_>,
+        points: &Bound<'_, PyAny>,
+        indices: Vec<u32>,
+        backend: &str,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Mesh> {
+        let (input, options) = (Input::new(points)?, Options::new(backend, self.threads, progress)?);
+        let either = match &self.either {
+            Either::Two(data) => Either::Two(removed(data, py, &input, &indices, &options)?),
+            Either::Three(data) => Either::Three(removed(data, py, &input, &indices, &options)?),
+        };
+        Ok(Mesh { either, threads: self.threads })
+    }
+}
+
+fn simplices<'py, M: Core<D, N>, const D: usize, const N: usize>(
+    data: &Data<M, D, N>,
+    py: Python<'py>,
+) -> PyResult<Bound<'py, PyAny>> {
+    arrays::view(py, data.mesh.clone(), data.mesh.simplices().as_flattened(), Some(N))
+}
+
+fn neighbors<'py, M: Core<D, N>, const D: usize, const N: usize>(
+    data: &Data<M, D, N>,
+    py: Python<'py>,
+) -> PyResult<Bound<'py, PyAny>> {
+    match data.mesh.opposites() {
+        std::borrow::Cow::Borrowed(neighbors) => arrays::view(py, data.mesh.clone(), neighbors.as_flattened(), Some(N)),
+        std::borrow::Cow::Owned(neighbors) => Ok(arrays::index_rows(py, neighbors)?.into_any()),
+    }
+}
+
+fn hull<'py, M: Core<D, N>, const D: usize, const N: usize>(
+    data: &Data<M, D, N>,
+    py: Python<'py>,
+) -> PyResult<Bound<'py, PyAny>> {
+    Ok(arrays::index_rows(py, data.mesh.hull_facets())?.into_any())
+}
+
+fn state<'py, M: Core<D, N>, const D: usize, const N: usize>(
+    data: &Data<M, D, N>,
+    py: Python<'py>,
+) -> PyResult<State<'py>> {
+    let mesh = &data.mesh;
+    let view = |words: &[u32], columns| arrays::view(py, mesh.clone(), words, columns);
+    let arrays = vec![
+        view(mesh.simplices().as_flattened(), Some(N))?,
+        view(mesh.links().as_flattened(), Some(N))?,
+        view(mesh.hull(), None)?,
+        view(mesh.duplicate_of(), None)?,
+    ];
+    Ok((arrays, mesh.dimension()))
+}
+
+fn updated<M: Core<D, N>, const D: usize, const N: usize>(
+    data: &Data<M, D, N>,
+    py: Python<'_>,
+    input: &Input<'_>,
+    options: &Options,
+) -> PyResult<Data<M, D, N>> {
+    let points = input.points::<D>()?;
+    let old = &data.mesh;
+    let mesh = compute::triangulate(py, options, points.len(), |by| {
+        // An update needs only these of a mesh that is not on a device.
+        let mut mesh = M::from_arrays(Arrays {
+            simplices: Vec::new(),
+            links: Vec::new(),
+            hull: Vec::new(),
+            duplicate_of: old.duplicate_of().to_vec(),
+            dimension: old.dimension(),
+        });
+        by.update(&mut mesh, points)?;
+        Ok(mesh)
+    })?;
+    Ok(Data::new(mesh))
+}
+
+fn inserted<'py, M: Core<D, N>, const D: usize, const N: usize>(
+    data: &Data<M, D, N>,
+    py: Python<'py>,
+    input: &Input<'_>,
+    new: &Input<'_>,
+    options: &Options,
+) -> PyResult<(Data<M, D, N>, Bound<'py, PyAny>)>
+where
+    for<'p> Points<'p, D>: From<&'p [[f32; D]]> + From<&'p [[f64; D]]>,
+    Euclidean: Derives<D, N>,
+{
+    let mut mesh = M::clone(&data.mesh);
+    match (input.points::<D>()?, new.points::<D>()?) {
+        (Points::F32(old), Points::F32(new)) => {
+            let mut points = old.to_vec();
+            compute::triangulate(py, options, old.len() + new.len(), |by| {
+                by.insert(&mut mesh, &mut points, new).map(drop)
+            })?;
+            Ok((Data::new(mesh), arrays::rows(py, points)?.into_any()))
+        }
+        (Points::F64(old), Points::F64(new)) => {
+            let mut points = old.to_vec();
+            compute::triangulate(py, options, old.len() + new.len(), |by| {
+                by.insert(&mut mesh, &mut points, new).map(drop)
+            })?;
+            Ok((Data::new(mesh), arrays::rows(py, points)?.into_any()))
+        }
+        _ => Err(PyValueError::new_err("the new points are not of the type of the others")),
+    }
+}
+
+fn removed<M: Core<D, N>, const D: usize, const N: usize>(
+    data: &Data<M, D, N>,
+    py: Python<'_>,
+    input: &Input<'_>,
+    indices: &[u32],
+    options: &Options,
+) -> PyResult<Data<M, D, N>> {
+    let points = input.points::<D>()?;
+    let mut mesh = M::clone(&data.mesh);
+    compute::triangulate(py, options, points.len(), |by| by.remove(&mut mesh, points, indices))?;
+    Ok(Data::new(mesh))
+}
+
+/// Checks that there is a value for each point.
+pub(crate) fn check_values(values: usize, points: usize) -> PyResult<()> {
+    if values == points { Ok(()) } else { Err(exception(Error::ValueCount { values, points })) }
+}

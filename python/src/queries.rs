@@ -1,0 +1,154 @@
+//! Answers for many queries.
+
+use crate::{
+    arrays::{self, Input, PyCsr},
+    compute,
+    core::{Core, Data, Derives},
+    mesh::check_values,
+};
+use gdel::{
+    Csr, Duplicates, Error, Interpolation, Interpolator, Locator, NONE, Outside, Points, internals::geometry::Euclidean,
+};
+use numpy::{IntoPyArray, PyArray1};
+use pyo3::{exceptions::PyValueError, prelude::*};
+
+/// Returns the simplex that contains each query.
+pub(crate) fn locate<'py, M: Core<D, N>, const D: usize, const N: usize>(
+    data: &Data<M, D, N>,
+    py: Python<'py>,
+    input: &Input<'_>,
+    queries: &Input<'_>,
+    threads: Option<usize>,
+) -> PyResult<Bound<'py, PyArray1<i32>>>
+where
+    Euclidean: Derives<D, N>,
+{
+    indices(data, py, (input, queries), threads, |locator, queries| {
+        let places = locator.locate_many(queries)?;
+        Ok(places.into_iter().map(|place| place.simplex().map_or(NONE, |t| t as u32)).collect())
+    })
+}
+
+/// Returns the vertex nearest to each query.
+pub(crate) fn nearest<'py, M: Core<D, N>, const D: usize, const N: usize>(
+    data: &Data<M, D, N>,
+    py: Python<'py>,
+    input: &Input<'_>,
+    queries: &Input<'_>,
+    threads: Option<usize>,
+) -> PyResult<Bound<'py, PyArray1<i32>>>
+where
+    Euclidean: Derives<D, N>,
+{
+    indices(data, py, (input, queries), threads, |locator, queries| {
+        let found = locator.nearest_many(queries)?;
+        Ok(found.into_iter().map(|vertex| vertex.unwrap_or(NONE)).collect())
+    })
+}
+
+/// Returns an index for each query, −1 where `find` has none.
+fn indices<'py, M: Core<D, N>, const D: usize, const N: usize>(
+    data: &Data<M, D, N>,
+    py: Python<'py>,
+    (input, queries): (&Input<'_>, &Input<'_>),
+    threads: Option<usize>,
+    find: impl Fn(&Locator<'_, D, N>, Points<'_, D>) -> Result<Vec<u32>, Error> + Send + Sync,
+) -> PyResult<Bound<'py, PyArray1<i32>>>
+where
+    Euclidean: Derives<D, N>,
+{
+    let (points, queries) = (input.points::<D>()?, queries.points::<D>()?);
+    let found = compute::answer(py, threads, queries, NONE, |queries| find(data.locator(points)?, queries))?;
+    Ok(arrays::list(py, found))
+}
+
+/// Returns the `k` vertices nearest to each query.
+pub(crate) fn nearest_k<'py, M: Core<D, N>, const D: usize, const N: usize>(
+    data: &Data<M, D, N>,
+    py: Python<'py>,
+    input: &Input<'_>,
+    queries: &Input<'_>,
+    k: usize,
+    threads: Option<usize>,
+) -> PyResult<PyCsr<'py>>
+where
+    Euclidean: Derives<D, N>,
+{
+    let (points, queries) = (input.points::<D>()?, queries.points::<D>()?);
+    let found = compute::run(py, threads, || {
+        let locator = data.locator(points)?;
+        let mut lists = Csr::default();
+        for query in queries.iter() {
+            if query.iter().all(|x| x.is_finite()) {
+                lists.indices.extend(locator.nearest_k(query, k)?);
+            }
+            lists.offsets.push(lists.indices.len());
+        }
+        Ok(lists)
+    })?;
+    Ok(arrays::csr(py, found))
+}
+
+/// How values are interpolated.
+pub(crate) struct Method {
+    interpolation: Interpolation,
+    outside: Outside,
+    duplicates: Duplicates,
+}
+
+impl Method {
+    /// Reads names; `fill` is the value outside that `"fill"` stands for.
+    pub(crate) fn new(interpolation: &str, outside: &str, fill: f64, duplicates: &str) -> PyResult<Self> {
+        let wrong = |what: &str, names: &str, name: &str| {
+            Err(PyValueError::new_err(format!("{what} must be {names}, not {name:?}")))
+        };
+        let interpolation = match interpolation {
+            "linear" => Interpolation::Linear,
+            "laplace" => Interpolation::Laplace,
+            "sibson" => Interpolation::Sibson,
+            "sibson-c1" => Interpolation::SibsonC1,
+            "clough-tocher" => Interpolation::CloughTocher,
+            name => return wrong("method", "'linear', 'laplace', 'sibson', 'sibson-c1' or 'clough-tocher'", name),
+        };
+        let outside = match outside {
+            "fill" => Outside::Value(fill),
+            "nearest" => Outside::Nearest,
+            "linear" => Outside::Linear,
+            name => return wrong("outside", "'fill', 'nearest' or 'linear'", name),
+        };
+        let duplicates = match duplicates {
+            "first" => Duplicates::First,
+            "mean" => Duplicates::Mean,
+            "error" => Duplicates::Error,
+            name => return wrong("duplicates", "'first', 'mean' or 'error'", name),
+        };
+        Ok(Method { interpolation, outside, duplicates })
+    }
+}
+
+/// Returns the interpolated value at each query.
+pub(crate) fn interpolate<'py, M: Core<D, N>, const D: usize, const N: usize>(
+    data: &Data<M, D, N>,
+    py: Python<'py>,
+    input: &Input<'_>,
+    values: &[f64],
+    queries: &Input<'_>,
+    method: &Method,
+    threads: Option<usize>,
+) -> PyResult<Bound<'py, PyArray1<f64>>>
+where
+    Euclidean: Derives<D, N>,
+{
+    let (points, queries) = (input.points::<D>()?, queries.points::<D>()?);
+    check_values(values.len(), points.len())?;
+    // The values of duplicates are looked at once.
+    let interpolator = compute::run(py, threads, || {
+        let interpolator = Interpolator::new(data.locator(points)?, values)?.outside(method.outside);
+        interpolator.duplicates(method.duplicates)
+    })?;
+    let missing = if let Outside::Value(value) = method.outside { value } else { f64::NAN };
+    let found = compute::answer(py, threads, queries, missing, |queries| {
+        Ok(interpolator.interpolate_many(method.interpolation, queries)?.values)
+    })?;
+    Ok(found.into_pyarray(py))
+}
