@@ -3,13 +3,14 @@
 
     benches/surface_corpus.py [--gdel PATH] [--points N] [--peers] [--only NAME] [-- OPTIONS OF gdel surface]
 
-Twelve shapes of known volume, genus and number of surfaces, each as seven scans: dense, sparse (an eighth of the points),
-with noise of 0.25 and of 0.6 of the distance between points, with 1 % of outliers, with three holes, and with coordinates
-that are multiples of 1/500. A row says whether the surface is closed (every edge has one triangle in each direction),
+Twelve shapes of known volume, genus and number of surfaces, each as thirteen scans: dense, sparse (an eighth of the points),
+with noise of 0.25 and of 0.6 of the distance between points, with 1 % of outliers, with three holes, with coordinates
+that are multiples of 1/500, and what one to six viewpoints see. A row says whether the surface is closed (every edge has one triangle in each direction),
 whether it intersects itself (by Open3D, if it is installed), whether genus and number of surfaces are right, the error of
 the volume, and the mean distance of its area from the shape in units of the distance between points. `--peers` adds
-Open3D's screened Poisson with estimated normals at its best depth from 6 to 9. The last lines sum up each kind of scan.
-Needs NumPy; by default it takes target/release/gdel.
+Open3D's screened Poisson with estimated and with true normals at the best of three depths (6 to 8 for 15,000 points), its ball pivoting and its
+alpha shape, and PyVista's `delaunay_3d`, these at the best of three radii: the best has the right genus, else the
+least distance. The last lines sum up each kind of scan. Needs NumPy; by default it takes target/release/gdel.
 """
 
 import argparse
@@ -25,6 +26,10 @@ try:
     import open3d
 except (ImportError, OSError):
     open3d = None
+try:
+    import pyvista
+except (ImportError, OSError):
+    pyvista = None
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
@@ -113,7 +118,25 @@ def on_surface(distance, bound, count, random):
     return np.concatenate(found)[:count]
 
 
-def scans(points, distance_between, bound, random):
+def slopes(distance, points, step=1e-5):
+    """The normals of a shape near its surface."""
+    slope = np.stack([distance(points + step * e) - distance(points - step * e) for e in np.eye(3)], -1)
+    return slope / np.maximum(length(slope), 1e-30)[:, None]
+
+
+# Around the shapes, so that each sees what the ones before do not.
+VIEWPOINTS = np.array([[1, 0.3, 0.4], [-1, -0.4, 0.3], [0.2, 1, -0.5], [0.3, -1, -0.3], [-0.4, 0.2, 1], [0.2, 0.1, -1]])
+
+
+def visible(distance, points, viewpoint, steps=160):
+    """Which points of a shape a viewpoint sees: the shape is not between."""
+    is_seen = np.ones(len(points), bool)
+    for share in np.linspace(0, 1, steps + 1)[1:] ** 1.5:
+        is_seen[is_seen] = distance(points[is_seen] + share * (viewpoint - points[is_seen])) > -1e-4
+    return is_seen
+
+
+def scans(points, distance, distance_between, bound, random):
     """The scans of a shape, by name."""
     yield "dense", points
     yield "sparse", points[: len(points) // 8]
@@ -124,6 +147,10 @@ def scans(points, distance_between, bound, random):
     far = np.min([length(points - center) for center in centers], axis=0)
     yield "holes", points[far > 4 * distance_between]
     yield "quantised", np.round(points * 500) / 500
+    is_seen = np.zeros(len(points), bool)
+    for count, direction in enumerate(VIEWPOINTS, 1):
+        is_seen |= visible(distance, points, 3 * bound * direction)
+        yield f"{count} viewpoint{'s' if count > 1 else ''}", points[is_seen]
 
 
 def read_ply(path):
@@ -155,8 +182,11 @@ def check(vertices, triangles, shape, distance_between, random):
     distance, _, volume, genus, surfaces = shape
     used, triangles = np.unique(triangles, return_inverse=True)
     vertices, triangles = vertices[used], triangles.reshape(-1, 3)
-    if len(triangles) == 0:
-        return {"closed": True, "intersects": False, "right": False, "triangles": 0, "volume": -1, "distance": None}
+    corners = vertices[triangles]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    area = length(normals)
+    if not area.sum() > 0:
+        return {"closed": True, "right": False, "triangles": 0, "volume": -1, "distance": None}
     edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
     ids = np.sort(edges[:, 0] * len(vertices) + edges[:, 1])
     reverse = np.sort(edges[:, 1] * len(vertices) + edges[:, 0])
@@ -165,10 +195,7 @@ def check(vertices, triangles, shape, distance_between, random):
     euler = len(vertices) - len(np.unique(np.minimum(ids, reverse) if closed else ids)) + len(triangles)
     if closed:
         euler = len(vertices) - len(edges) // 2 + len(triangles)
-    corners = vertices[triangles]
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     found = (normals * corners[:, 0]).sum() / 6
-    area = length(normals)
     chosen = corners[random.choice(len(triangles), 50_000, p=area / area.sum())]
     s, t = random.uniform(size=(2, 50_000, 1))
     s, t = np.where(s + t > 1, 1 - s, s), np.where(s + t > 1, 1 - t, t)
@@ -176,24 +203,56 @@ def check(vertices, triangles, shape, distance_between, random):
     row = {"closed": closed, "right": closed and pieces == surfaces and 2 * pieces - euler == 2 * genus,
            "triangles": len(triangles), "volume": float(found / volume - 1),
            "distance": float(np.abs(distance(places)).mean() / distance_between)}
-    if open3d:
-        mesh = open3d.geometry.TriangleMesh(open3d.utility.Vector3dVector(vertices),
-                                            open3d.utility.Vector3iVector(triangles.astype(np.int32)))
-        row["intersects"] = mesh.is_self_intersecting()
     return row
 
 
-def poisson(points, shape, distance_between, random):
-    """The best of Open3D's screened Poisson surfaces."""
+def intersects(vertices, triangles):
+    """Whether a surface intersects itself; `None` without Open3D."""
+    if not open3d:
+        return None
+    mesh = open3d.geometry.TriangleMesh(open3d.utility.Vector3dVector(vertices),
+                                        open3d.utility.Vector3iVector(triangles.astype(np.int32)))
+    return mesh.is_self_intersecting()
+
+
+def best(meshes, shape, distance_between, random):
+    """The best of some surfaces."""
+    rows = []
+    for option, mesh in meshes:
+        vertices, triangles = mesh[0], mesh[1].astype(np.int64)
+        row = check(vertices, triangles, shape, distance_between, random) | {"option": option}
+        rows.append((not row["right"], math.inf if row["distance"] is None else row["distance"], len(rows), row, mesh))
+    *_, row, mesh = min(rows)
+    return row | {"intersects": intersects(*mesh)}
+
+
+def arrays_of(mesh):
+    return np.asarray(mesh.vertices), np.asarray(mesh.triangles)
+
+
+def peers(points, shape, distance_between, random):
+    """What other programs make of a scan, by name."""
+    judged = lambda meshes: best(meshes, shape, distance_between, random)
     cloud = open3d.geometry.PointCloud(open3d.utility.Vector3dVector(points))
+    radii = [distance_between * factor for factor in (2, 4, 8)]
+    mesh_of = open3d.geometry.TriangleMesh
+    alpha = mesh_of.create_from_point_cloud_alpha_shape
+    yield "open3d alpha", judged([(radius, arrays_of(alpha(cloud, radius))) for radius in radii])
+    if pyvista:
+        grid = pyvista.PolyData(points)
+        hulls = [(radius, grid.delaunay_3d(alpha=radius).extract_geometry().triangulate()) for radius in radii]
+        faces = lambda hull: hull.faces.reshape(-1, 4)[:, 1:] if hull.n_cells else np.zeros((0, 3), int)
+        yield "pyvista", judged([(radius, (np.asarray(hull.points, float), faces(hull))) for radius, hull in hulls])
+    first = round(math.log2(2 / distance_between))
+    poisson = lambda: [(depth, arrays_of(mesh_of.create_from_point_cloud_poisson(cloud, depth=depth)[0]))
+                       for depth in range(first, first + 3)]
+    cloud.normals = open3d.utility.Vector3dVector(slopes(shape[0], points))
+    yield "poisson, true normals", judged(poisson())
     cloud.estimate_normals(open3d.geometry.KDTreeSearchParamKNN(20))
     cloud.orient_normals_consistent_tangent_plane(20)
-    rows = []
-    for depth in range(6, 10):
-        mesh, _ = open3d.geometry.TriangleMesh.create_from_point_cloud_poisson(cloud, depth=depth)
-        arrays = np.asarray(mesh.vertices), np.asarray(mesh.triangles).astype(np.int64)
-        rows.append(check(*arrays, shape, distance_between, random) | {"depth": depth})
-    return min(rows, key=lambda row: (not row["right"], row["distance"]))
+    yield "poisson", judged(poisson())
+    pivoting = mesh_of.create_from_point_cloud_ball_pivoting(cloud, open3d.utility.DoubleVector(radii))
+    yield "ball pivoting", judged([(None, arrays_of(pivoting))])
 
 
 def main():
@@ -217,15 +276,18 @@ def main():
             # The number of points in a unit of the area, by the shell around the surface.
             probe = random.uniform(-shape[1], shape[1], (1_000_000, 3))
             area = (np.abs(shape[0](probe)) < 0.01).mean() * (2 * shape[1]) ** 3 / 0.02
-            for kind, seen in scans(points, math.sqrt(area / len(points)), shape[1], random):
-                between = math.sqrt(area / len(seen))
+            for kind, seen in scans(points, shape[0], math.sqrt(area / len(points)), shape[1], random):
+                # What a viewpoint does not see is no matter of density.
+                between = math.sqrt(area / (len(points) if "viewpoint" in kind else len(seen)))
                 np.save(scan, seen)
                 command = [arguments.gdel, "surface", scan, "-f", "-o", output, "--stats", "json", "--backend", "cpu"]
                 run = subprocess.run(command + arguments.options, capture_output=True, text=True, check=True)
                 seconds = json.loads(run.stdout)["seconds"]["total"]
-                rows = {"gdel": check(*read_ply(output), shape, between, random) | {"seconds": seconds}}
+                mesh = read_ply(output)
+                row = check(*mesh, shape, between, random)
+                rows = {"gdel": row | {"intersects": intersects(*mesh), "seconds": seconds}}
                 if arguments.peers:
-                    rows["poisson"] = poisson(seen, shape, between, random)
+                    rows |= dict(peers(seen, shape, between, random))
                 for side, row in rows.items():
                     print(json.dumps({"shape": name, "scan": kind, "side": side} | row), flush=True)
                     sums.setdefault((side, kind), []).append(row)

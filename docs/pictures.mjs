@@ -108,7 +108,7 @@ const grid = Array.from({ length: CELLS ** 2 }, (_, i) => [
 ]);
 const panels = [];
 for (const method of ['linear', 'laplace', 'sibson']) {
-  const found = await mesh.interpolate(values, grid, { method });
+  const { values: found } = await mesh.interpolate(values, grid, { method });
   const levels = Array.from({ length: LEVELS }, () => '');
   const level = (i) => Math.min(LEVELS - 1, Math.floor(((found[i] + 1) / 2) * LEVELS));
   for (let i = 0; i < grid.length; ) {

@@ -6,9 +6,11 @@
 //! the dimensions supply.
 
 pub mod edit;
-
+mod regular;
 mod workers;
 
+pub(crate) use regular::are_equal;
+pub use regular::{regular, regular_in_order, weights_of_radii};
 pub(crate) use workers::{SharedRun, insert_by_workers};
 
 use crate::{
@@ -67,6 +69,18 @@ pub trait Incremental<const D: usize> {
         options: &Options,
     ) -> Result<Self::Triangulation, Error>;
 
+    /// Triangulates all vertices, as far as they are not hidden, like [`triangulate`](Incremental::triangulate).
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`insert_all`].
+    fn triangulate_weighted(
+        threads: Threads,
+        vertices: &PredicateContext<'_, D, true>,
+        rounds: &[Range<u32>],
+        options: &Options,
+    ) -> Result<Self::Triangulation, Error>;
+
     /// Returns the mesh of a triangulation, in which vertex *v* becomes `names[v]`, made by
     /// `threads`.
     fn mesh(triangulation: Self::Triangulation, names: &[u32], threads: Threads, options: &Options) -> Self::Mesh;
@@ -102,7 +116,7 @@ pub trait Grow<const D: usize>: Insert<D> + Sized {
     ///
     /// Returns the errors of the run's reports, [`Error::TooManySimplices`] and
     /// [`Error::OutOfMemory`].
-    fn insert_by_threads(self, run: &SharedRun<'_, D>) -> Result<(Self, Vec<u32>), Error>;
+    fn insert_by_threads<const W: bool>(self, run: &SharedRun<'_, D, W>) -> Result<(Self, Vec<u32>), Error>;
 }
 
 /// Simplices among which vertices are inserted: a whole triangulation, or what a thread sees of
@@ -123,17 +137,17 @@ pub trait Insert<const D: usize> {
     ///
     /// Walks from simplex `start` across facets that separate the current simplex from `p`. The
     /// walk ends because the power distance to `p` decreases with every step.
-    fn locate(&self, vertices: &PredicateContext<'_, D>, p: u32, start: u32) -> u32;
+    fn locate<const W: bool>(&self, vertices: &PredicateContext<'_, D, W>, p: u32, start: u32) -> u32;
 
-    /// Inserts vertex `p`, which is in conflict with simplex `start`. Returns a simplex at `p`;
-    /// `None`, without having changed anything, if another thread disturbs the insertion.
+    /// Inserts vertex `p`, which [`locate`](Insert::locate) has found in simplex `start`. Returns a simplex at `p`, or,
+    /// without having changed anything, `start` if `p` is hidden, and `None` if another thread disturbs the insertion.
     ///
     /// # Errors
     ///
     /// Returns [`Error::TooManySimplices`] and [`Error::OutOfMemory`].
-    fn insert(
+    fn insert<const W: bool>(
         &mut self,
-        vertices: &PredicateContext<'_, D>,
+        vertices: &PredicateContext<'_, D, W>,
         p: u32,
         start: u32,
         scratch: &mut Self::Scratch,
@@ -169,19 +183,33 @@ pub fn delaunay_in_order<const D: usize>(
 where
     Dimension<D>: Incremental<D>,
 {
+    triangulate_in_order::<D, false>(points, &[], options, order)
+}
+
+/// Triangulates `points`, which have `weights` if `W`: modules of WebAssembly without weights have no code for them.
+fn triangulate_in_order<const D: usize, const W: bool>(
+    points: Points<'_, D>,
+    weights: &[f64],
+    options: &Options,
+    order: Order,
+) -> Result<MeshOf<D>, Error>
+where
+    Dimension<D>: Incremental<D>,
+{
     let limit = Dimension::<D>::MAX_POINTS;
     if points.len() > limit {
         return Err(Error::TooManyPoints { points: points.len(), limit });
     }
     // Threads that have nothing to do would cost more than they bring.
     let threads = if points.len() < MIN_SHARED { Some(NonZeroUsize::MIN) } else { options.threads };
-    parallel::with_threads(threads, |threads| delaunay_by(threads, points, options, order))
+    parallel::with_threads(threads, |threads| triangulate_by::<D, W>(threads, points, weights, options, order))
 }
 
-/// Triangulates `points` by incremental insertion by `threads`.
-fn delaunay_by<const D: usize>(
+/// Triangulates `points`, which have `weights` if `W`, by `threads`.
+fn triangulate_by<const D: usize, const W: bool>(
     threads: Threads,
     points: Points<'_, D>,
+    weights: &[f64],
     options: &Options,
     order: Order,
 ) -> Result<MeshOf<D>, Error>
@@ -191,17 +219,27 @@ where
     let mut stopwatch = Stopwatch::start();
     let mut stats = Stats::new(Backend::Cpu);
     options.report(Phase::Sort, 0.0)?;
-    let lattice = Lattice::fit_by(threads, points)?;
-    let Distinct { mut order, rounds, duplicate_of } =
+    let lattice = if W { Lattice::fit_weighted(threads, points, weights)? } else { Lattice::fit_by(threads, points)? };
+    let Distinct { mut order, rounds, mut duplicate_of } =
         insertion_order(threads, points, &lattice, Dimension::<D>::CURVE, order);
+    if W {
+        regular::keep_heaviest(weights, &mut order, &mut duplicate_of);
+    }
     let dimension = Dimension::<D>::spanning_first(points, &mut order);
     stats.phases.push((Phase::Sort, stopwatch.lap()));
     let mut mesh = if usize::from(dimension) == D {
-        let vertices = PredicateContext::new_by(threads, points, &lattice, order);
-        let triangulation = Dimension::<D>::triangulate(threads, &vertices, &rounds, options)?;
+        let (triangulation, names);
+        if W {
+            let vertices = PredicateContext::weighted_by(threads, points, weights, &lattice, order);
+            triangulation = Dimension::<D>::triangulate_weighted(threads, &vertices, &rounds, options)?;
+            (stats.exact, names) = (vertices.exact_counts(), vertices.into_input_indices());
+        } else {
+            let vertices = PredicateContext::new_by(threads, points, &lattice, order);
+            triangulation = Dimension::<D>::triangulate(threads, &vertices, &rounds, options)?;
+            (stats.exact, names) = (vertices.exact_counts(), vertices.into_input_indices());
+        }
         stats.phases.push((Phase::Insert, stopwatch.lap()));
-        stats.exact = vertices.exact_counts();
-        let mesh = Dimension::<D>::mesh(triangulation, &vertices.into_input_indices(), threads, options);
+        let mesh = Dimension::<D>::mesh(triangulation, &names, threads, options);
         stats.phases.push((Phase::Finish, stopwatch.lap()));
         mesh
     } else {
@@ -209,6 +247,9 @@ where
     };
     options.report(Phase::Finish, 1.0)?;
     mesh.set_input(duplicate_of, dimension);
+    if W {
+        mesh.set_weights(weights);
+    }
     *mesh.stats_mut() = stats;
     Ok(mesh)
 }
@@ -219,9 +260,9 @@ where
 /// # Errors
 ///
 /// Returns [`Error::Cancelled`], [`Error::TooManySimplices`] and [`Error::OutOfMemory`].
-pub(crate) fn insert_all<const D: usize, T: Grow<D>>(
+pub(crate) fn insert_all<const D: usize, T: Grow<D>, const W: bool>(
     threads: Threads,
-    vertices: &PredicateContext<'_, D>,
+    vertices: &PredicateContext<'_, D, W>,
     rounds: &[Range<u32>],
     options: &Options,
 ) -> Result<T, Error> {
@@ -259,9 +300,9 @@ pub(crate) fn insert_all<const D: usize, T: Grow<D>>(
 /// # Errors
 ///
 /// Returns the errors of `report`, [`Error::TooManySimplices`] and [`Error::OutOfMemory`].
-pub(crate) fn insert_points<const D: usize, T: Insert<D>>(
+pub(crate) fn insert_points<const D: usize, T: Insert<D>, const W: bool>(
     triangulation: &mut T,
-    vertices: &PredicateContext<'_, D>,
+    vertices: &PredicateContext<'_, D, W>,
     points: impl IntoIterator<Item = u32>,
     start: u32,
     report: impl Fn(usize) -> Result<(), Error>,
@@ -286,9 +327,9 @@ pub(crate) fn insert_points<const D: usize, T: Insert<D>>(
 ///
 /// Returns [`Error::TooManySimplices`] and [`Error::OutOfMemory`].
 #[inline(never)]
-fn insert_some<const D: usize, T: Insert<D>>(
+fn insert_some<const D: usize, T: Insert<D>, const W: bool>(
     triangulation: &mut T,
-    vertices: &PredicateContext<'_, D>,
+    vertices: &PredicateContext<'_, D, W>,
     points: &mut dyn Iterator<Item = u32>,
     start: u32,
     scratch: &mut T::Scratch,

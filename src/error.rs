@@ -146,6 +146,14 @@ pub enum Error {
         /// The number of tetrahedra, or triangles in 2D, that room was requested for.
         simplices: usize,
     },
+    /// Equal points have different values, and that was to be an error.
+    #[error("points {first} and {other} are equal, but their values differ")]
+    DuplicateValues {
+        /// The index of the first of the points.
+        first: usize,
+        /// The lowest index of a point with another value.
+        other: usize,
+    },
     /// A mesh was given with other points than its own.
     #[error("the mesh has {expected} points, not {points}")]
     PointCount {
@@ -170,6 +178,21 @@ pub enum Error {
         /// The number of points.
         points: usize,
     },
+    /// A weight is NaN or infinite.
+    #[error("weight {index} is not a finite number")]
+    BadWeight {
+        /// The index of the first point with such a weight.
+        index: usize,
+    },
+    /// A radius is negative or NaN.
+    #[error("radius {index} is not a number from 0 on")]
+    BadRadius {
+        /// The index of the first point with such a radius.
+        index: usize,
+    },
+    /// What was asked for exists for Delaunay triangulations only so far, and the mesh is one of weighted points.
+    #[error("this is not possible with a mesh of weighted points")]
+    WeightedMesh,
     /// The box that a Voronoi diagram is to be clipped to has no inside, or is not finite.
     #[error("the box has no inside: along the {axis} axis, its lower end must be below its upper end, and both finite")]
     EmptyBox {
@@ -219,8 +242,9 @@ impl Error {
             TooManyPoints { .. } | TooManySimplices { .. } => true,
             NotFinite { .. } | NotWholePoints { .. } | ArrayShape { .. } | ArrayLayout => false,
             AdapterOfDevice | OutOfMemory { .. } | Threads { .. } | Cancelled => false,
-            PointCount { .. } | BadIndex { .. } | ValueCount { .. } | EmptyBox { .. } => false,
-            BadAlpha | BadOption { .. } | BrokenMesh { .. } => false,
+            PointCount { .. } | BadIndex { .. } | ValueCount { .. } | DuplicateValues { .. } | EmptyBox { .. } => false,
+            BadAlpha | BadOption { .. } | BrokenMesh { .. } | BadWeight { .. } | BadRadius { .. } => false,
+            WeightedMesh => false,
         }
     }
 }

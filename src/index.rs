@@ -25,3 +25,22 @@ impl std::fmt::Display for Entry {
         if self.0 == NONE { f.write_str("none") } else { self.0.fmt(f) }
     }
 }
+
+/// Makes hash tables of indices fast: hashes by a multiplication and a rotation for each. They are not chosen by an
+/// adversary.
+#[derive(Default)]
+pub(crate) struct IndexHasher(u64);
+
+pub(crate) type BuildIndexHasher = std::hash::BuildHasherDefault<IndexHasher>;
+
+impl std::hash::Hasher for IndexHasher {
+    fn finish(&self) -> u64 {
+        self.0
+    }
+    fn write(&mut self, bytes: &[u8]) {
+        bytes.iter().for_each(|&b| self.write_u32(b.into()));
+    }
+    fn write_u32(&mut self, x: u32) {
+        self.0 = (self.0 ^ u64::from(x)).wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(29);
+    }
+}

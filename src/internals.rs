@@ -5,7 +5,9 @@
 
 pub use crate::options::{OnProgress, Options, Winding};
 pub mod cpu {
-    pub use crate::cpu::{Incremental, Insert, MeshOf, delaunay, delaunay_in_order};
+    pub use crate::cpu::{
+        Incremental, Insert, MeshOf, delaunay, delaunay_in_order, regular, regular_in_order, weights_of_radii,
+    };
     pub mod edit {
         pub use crate::cpu::edit::{Again, Edit, Sparse, Used, delaunay_of_used, edit};
     }
@@ -67,7 +69,9 @@ pub mod d3 {
     }
 }
 pub mod derived {
-    pub use crate::derived::{AlphaEdges, StolenMeasures, SurfaceMesh, VoronoiShapes, crossing_facets};
+    pub use crate::derived::{
+        AlphaEdges, DisjointSets, SingularEdges, StolenMeasures, SurfaceMesh, VoronoiShapes, crossing_facets, singular,
+    };
 }
 pub mod dimension {
     pub use crate::dimension::Dimension;
@@ -161,6 +165,9 @@ pub mod parallel {
 }
 pub mod predicates {
     pub use crate::predicates::{Sign, collinear, incircle, insphere, orient2d, orient3d};
+    pub mod exact {
+        pub use crate::predicates::exact::power_sign;
+    }
     pub mod filter {
         pub use crate::predicates::filter::{PredicateContext, PredicateContext2, PredicateContext3};
     }

@@ -27,9 +27,11 @@
 //! | --- | --- |
 //! | Which simplex contains a point? Which vertices are nearest to it? | [`Locator`] |
 //! | What is the value at a point, given values at the vertices? | [`Interpolator`] |
+//! | Where do values at the points have a level? | [`Contours`] |
 //! | Which region belongs to each point, how large is it, who are its neighbours? | [`Voronoi`] |
 //! | Which solid, or which surface, do the points describe? | [`AlphaShape`] |
 //! | What connects all points at the least length? Which clusters are there? | [`SpanningTree`] |
+//! | The same for places on a globe, by longitude and latitude | [`Sphere`] |
 //! | Which edges, facets and neighbours are there? | [`Mesh3::edges`], [`facets`](Mesh3::facets), [`vertex_neighbors`](Mesh3::vertex_neighbors) |
 //! | How large and how well shaped is each simplex? | [`Mesh3::volumes`], [`circumcenters`](Mesh3::circumcenters), [`radius_ratios`](Mesh3::radius_ratios) |
 #![cfg_attr(
@@ -96,9 +98,10 @@ pub use d3::{
     verify::{MeshView3, verify3d},
 };
 pub use derived::{
-    AlphaComplex, AlphaShape, AlphaShape2, Cell, Clip, Diagram, Evidence, FaceClass, Interpolation, Interpolator,
-    Interpolator2, Interval, Location, Locator, Locator2, Open, Side, SpanningTree, Surface, SurfaceOptions, Voronoi,
-    Voronoi2,
+    AlphaComplex, AlphaShape, AlphaShape2, Cell, Clip, Contour, Contours, Contours2, Diagram, Duplicates, Evidence,
+    FaceClass, Grid, Interpolated, Interpolation, Interpolator, Interpolator2, Interval, Location, Locator, Locator2,
+    Open, Outside, Side, SpanningTree, Sphere, Surface, SurfaceOptions, Voronoi, Voronoi2, WeightTable, lon_lat,
+    on_sphere,
 };
 #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
 pub use derived::{DeviceLocator, DeviceLocator2, Locations};

@@ -156,6 +156,9 @@ pub trait Mesh<const D: usize, const N: usize>: sealed::Sealed {
     /// Returns for each point the one that stands for it, or [`NONE`](crate::NONE) if it is a
     /// vertex itself; for points that were [removed](crate::Triangulator::remove), these themselves.
     fn duplicate_of(&self) -> &[u32];
+
+    /// Returns the weights of the points; none if the mesh is the Delaunay triangulation.
+    fn weights(&self) -> &[f64];
 }
 
 pub(crate) mod sealed {
@@ -173,6 +176,16 @@ pub(crate) fn vertex_simplex<const N: usize>(simplices: &[[u32; N]], points: usi
         }
     }
     simplex
+}
+
+/// Returns the distinct points that are no vertices of the simplices, in ascending order.
+pub(crate) fn hidden<const N: usize>(simplices: &[[u32; N]], duplicate_of: &[u32]) -> Vec<u32> {
+    let mut is_vertex = vec![false; duplicate_of.len()];
+    for &v in simplices.as_flattened() {
+        is_vertex[v as usize] = true;
+    }
+    let distinct = (0..).zip(duplicate_of).filter(|&(_, &d)| d == NONE).map(|(i, _)| i);
+    distinct.filter(|&i| !is_vertex[i as usize]).collect()
 }
 
 /// Returns the index behind an entry of `neighbors` or `duplicate_of`.
@@ -195,6 +208,9 @@ pub trait MeshInfo {
     /// Sets what the mesh says of its points.
     fn set_input(&mut self, duplicate_of: Vec<u32>, dimension: u8);
 
+    /// Sets the weights of the points, and which of them are hidden, after all else has been set.
+    fn set_weights(&mut self, weights: &[f64]);
+
     /// Returns for each point the one that stands for it.
     fn duplicate_of(&self) -> &[u32];
 
@@ -203,6 +219,9 @@ pub trait MeshInfo {
 
     /// Returns the number of points that are duplicates.
     fn duplicates(&self) -> usize;
+
+    /// Returns the number of hidden points, if the points are weighted.
+    fn hidden_count(&self) -> Option<usize>;
 
     /// Returns the affine dimension of the points.
     fn dimension(&self) -> u8;
@@ -235,11 +254,22 @@ macro_rules! common_methods {
             fn duplicate_of(&self) -> &[u32] {
                 &self.duplicate_of
             }
+
+            fn weights(&self) -> &[f64] {
+                &self.weights
+            }
         }
 
         impl $crate::mesh::MeshInfo for $mesh {
             fn set_input(&mut self, duplicate_of: Vec<u32>, dimension: u8) {
                 (self.duplicate_of, self.dimension) = (duplicate_of, dimension);
+            }
+
+            fn set_weights(&mut self, weights: &[f64]) {
+                self.weights = weights.to_vec();
+                let is_spanned = self.dimension == $D;
+                self.hidden =
+                    if is_spanned { $crate::mesh::hidden(&self.$simplices, &self.duplicate_of) } else { Vec::new() };
             }
 
             fn duplicate_of(&self) -> &[u32] {
@@ -258,6 +288,10 @@ macro_rules! common_methods {
 
             fn duplicates(&self) -> usize {
                 self.duplicate_count()
+            }
+
+            fn hidden_count(&self) -> Option<usize> {
+                (!self.weights.is_empty()).then_some(self.hidden.len())
             }
 
             fn dimension(&self) -> u8 {
@@ -279,9 +313,16 @@ macro_rules! common_methods {
 
         impl $mesh {
             /// Returns the vertices: the distinct points in ascending order, each by the lowest
-            /// index of its coordinates.
+            /// index of its coordinates, without the hidden ones of weighted points.
             pub fn vertices(&self) -> impl Iterator<Item = u32> + Clone + '_ {
-                (0..).zip(&self.duplicate_of).filter(|&(_, &d)| d == $crate::index::NONE).map(|(i, _)| i)
+                let distinct =
+                    (0..).zip(&self.duplicate_of).filter(|&(_, &d)| d == $crate::index::NONE).map(|(i, _)| i);
+                distinct.filter(|&i| !self.is_hidden(i))
+            }
+
+            /// Returns whether point `i` is one of the [`hidden`](Self::hidden) ones. A duplicate of one is not.
+            pub fn is_hidden(&self, i: u32) -> bool {
+                !self.hidden.is_empty() && self.hidden.binary_search(&i).is_ok()
             }
 
             /// Returns whether an earlier point has the same coordinates as point `i`, which
@@ -353,6 +394,8 @@ macro_rules! common_methods {
                 $crate::mesh::MeshInfo::rename(self, $crate::parallel::Threads::All, &places);
                 let place = |first: u32| places.get(first as usize).copied().unwrap_or(first);
                 self.duplicate_of = kept.iter().map(|&i| place(self.duplicate_of[i as usize])).collect();
+                self.hidden.iter_mut().for_each(|i| *i = place(*i));
+                self.weights = kept.iter().filter_map(|&i| self.weights.get(i as usize).copied()).collect();
                 kept
             }
         }

@@ -49,12 +49,15 @@ pub trait Slots<const N: usize> {
 
     /// Claims a vertex for the caller. Returns whether no other thread has it.
     fn claim(&mut self, v: u32) -> bool;
+
+    /// Takes a slot back that is not used any more. Of several slots the last comes first.
+    fn discard(&mut self, t: u32);
 }
 
 /// Implements [`Slots`] for a triangulation with an array of simplices of `$n` vertices, one of
-/// `neighbors`, and the number `infinite`, which no other thread changes.
+/// `neighbors`, and the number `infinite`, which no other thread changes; `$discard` takes a slot back.
 macro_rules! slots_of_arrays {
-    ($triangulation:ty, $n:literal, $simplices:ident, $limit:expr) => {
+    ($triangulation:ty, $n:literal, $simplices:ident, $limit:expr, $discard:expr) => {
         impl $crate::slots::Slots<$n> for $triangulation {
             const SHARED: bool = false;
 
@@ -102,6 +105,11 @@ macro_rules! slots_of_arrays {
             fn claim(&mut self, _v: u32) -> bool {
                 true
             }
+
+            fn discard(&mut self, t: u32) {
+                let discard: fn(&mut Self, u32) = $discard;
+                discard(self, t);
+            }
         }
     };
 }
@@ -121,9 +129,6 @@ pub trait MarkedSlots<const N: usize>: Slots<N> {
 
     /// Returns what stands for the first vertex and for vertex `k` of simplex `t`.
     fn first_and(&self, t: u32, k: usize) -> [u32; 2];
-
-    /// Takes a slot back that is not used any more.
-    fn discard(&mut self, t: u32);
 
     /// Creates a table for the vertices, the infinite one included. The places of vertices that
     /// others have claimed must not be used.
@@ -190,6 +195,7 @@ pub(crate) fn reserve_more<const N: usize>(
 /// # Errors
 ///
 /// Returns [`Error::TooManySimplices`] and [`Error::OutOfMemory`].
+#[inline(always)]
 pub(crate) fn push<const N: usize>(
     simplices: &mut Vec<[u32; N]>,
     neighbors: &mut Vec<[u32; N]>,

@@ -33,11 +33,11 @@ const INSERTIONS_PER_CLAIM: usize = 8;
 const RETRIES: usize = 3;
 
 /// The vertices that several threads insert.
-pub struct SharedRun<'a, const D: usize> {
+pub struct SharedRun<'a, const D: usize, const W: bool = false> {
     /// The threads.
     pub(crate) threads: Threads,
     /// All vertices. Those below the first of the rounds have been inserted.
-    pub(crate) vertices: &'a PredicateContext<'a, D>,
+    pub(crate) vertices: &'a PredicateContext<'a, D, W>,
     /// The vertices to be inserted, in rounds along the curve.
     pub(crate) rounds: Vec<Range<u32>>,
     /// Called from time to time, in the calling thread, with the number of vertices that have been
@@ -105,9 +105,9 @@ struct Rest {
 /// # Errors
 ///
 /// Returns the errors of the run's reports, [`Error::TooManySimplices`] and [`Error::OutOfMemory`].
-pub(crate) fn insert_by_workers<const D: usize, const N: usize>(
+pub(crate) fn insert_by_workers<const D: usize, const N: usize, const W: bool>(
     slots: &mut SharedSlots<N>,
-    run: &SharedRun<'_, D>,
+    run: &SharedRun<'_, D, W>,
 ) -> Result<Vec<u32>, Error>
 where
     for<'w> Worker<'w, N>: Insert<D>,
@@ -145,10 +145,10 @@ where
 }
 
 /// Inserts points of a round until none are left.
-fn work<const D: usize, const N: usize>(
+fn work<const D: usize, const N: usize, const W: bool>(
     slots: Worker<'_, N>,
     number: usize,
-    vertices: &PredicateContext<'_, D>,
+    vertices: &PredicateContext<'_, D, W>,
     round: &Round,
     report: &dyn Fn(usize) -> Result<(), Error>,
 ) -> Result<Rest, Error>
@@ -196,12 +196,12 @@ where
 }
 
 /// A worker that inserts one point after the other.
-struct Inserter<'a, 'w, const D: usize, const N: usize>
+struct Inserter<'a, 'w, const D: usize, const N: usize, const W: bool>
 where
     Worker<'w, N>: Insert<D>,
 {
     slots: Worker<'w, N>,
-    vertices: &'a PredicateContext<'a, D>,
+    vertices: &'a PredicateContext<'a, D, W>,
     scratch: <Worker<'w, N> as Insert<D>>::Scratch,
     /// Where the next walk begins.
     last: u32,
@@ -213,7 +213,7 @@ where
     is_done: bool,
 }
 
-impl<'w, const D: usize, const N: usize> Inserter<'_, 'w, D, N>
+impl<'w, const D: usize, const N: usize, const W: bool> Inserter<'_, 'w, D, N, W>
 where
     Worker<'w, N>: Insert<D>,
 {

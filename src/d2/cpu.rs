@@ -13,7 +13,10 @@ use crate::{
     input::{hilbert, order::Curve, points::Points2},
     options::Options,
     parallel::{self, Threads},
-    predicates::{filter::PredicateContext2, orient2d},
+    predicates::{
+        filter::{PredicateContext, PredicateContext2},
+        orient2d,
+    },
     slots::{self, SharedSlots},
 };
 use std::ops::Range;
@@ -42,6 +45,15 @@ impl Incremental<2> for Dimension<2> {
     fn triangulate(
         threads: Threads,
         vertices: &PredicateContext2<'_>,
+        rounds: &[Range<u32>],
+        options: &Options,
+    ) -> Result<Triangulation2, Error> {
+        insert_all(threads, vertices, rounds, options)
+    }
+
+    fn triangulate_weighted(
+        threads: Threads,
+        vertices: &PredicateContext<'_, 2, true>,
         rounds: &[Range<u32>],
         options: &Options,
     ) -> Result<Triangulation2, Error> {
@@ -96,7 +108,7 @@ impl Grow<2> for Triangulation2 {
         simplices.map(|(t, &near)| [words(t.map(corner)), words(near)]).collect()
     }
 
-    fn insert_by_threads(self, run: &SharedRun<'_, 2>) -> Result<(Self, Vec<u32>), Error> {
+    fn insert_by_threads<const W: bool>(self, run: &SharedRun<'_, 2, W>) -> Result<(Self, Vec<u32>), Error> {
         let Triangulation2 { triangles, neighbors, infinite } = self;
         let room = infinite as usize * Self::SIMPLICES_PER_POINT;
         let workers = parallel::count(run.threads);

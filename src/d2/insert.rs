@@ -5,14 +5,20 @@
 //! hull to one infinite vertex, so that no edge is special. The in-circle test breaks its ties
 //! symbolically and never returns zero, so the cavity is star-shaped, has no vertex inside, and no
 //! new triangle is flat.
+//!
+//! With weights the test is the power test, and all of that stays true except that vertices may lie inside the cavity:
+//! they become hidden, and slots are left over. A point that is not in conflict with the triangle that contains it is
+//! hidden, too.
 
 use crate::{
     cpu::Insert,
     d2::triangulation::MAX_TRIANGLES,
     error::Error,
-    predicates::filter::{PredicateContext2, PredicatesAt},
+    index::BuildIndexHasher,
+    predicates::filter::{PredicateContext, PredicatesAt},
     slots::Slots,
 };
+use std::collections::HashSet;
 
 /// The maximum number of points: a sphere of *n* + 1 vertices has 2·*n* − 2 triangles.
 pub(crate) const MAX_POINTS: usize = MAX_TRIANGLES / 2;
@@ -35,7 +41,16 @@ pub struct Scratch {
     boundary: Vec<Edge>,
     /// The edges that are still to be crossed, the next one last.
     pending: Vec<Edge>,
+    /// Slots that cavities with vertices inside have left over.
+    free: Vec<u32>,
+    large: Large,
 }
+
+/// With weights, the triangles in conflict if they are more than [`FEW`].
+type Large = HashSet<u32, BuildIndexHasher>;
+
+/// So few triangles in conflict are searched one by one.
+const FEW: usize = 32;
 
 /// The corner after corner *k* of a triangle, counter-clockwise.
 pub(crate) const NEXT: [usize; 3] = [1, 2, 0];
@@ -54,7 +69,7 @@ impl<S: Slots<3>> Insert<2> for S {
         Scratch::default()
     }
 
-    fn locate(&self, vertices: &PredicateContext2<'_>, p: u32, start: u32) -> u32 {
+    fn locate<const W: bool>(&self, vertices: &PredicateContext<'_, 2, W>, p: u32, start: u32) -> u32 {
         let mut t = match self.simplex(start).iter().position(|&v| v == self.infinite()) {
             Some(k) => self.neighbors(start)[k] >> 2,
             None => start,
@@ -80,21 +95,37 @@ impl<S: Slots<3>> Insert<2> for S {
         }
     }
 
-    fn insert(
+    fn insert<const W: bool>(
         &mut self,
-        vertices: &PredicateContext2<'_>,
+        vertices: &PredicateContext<'_, 2, W>,
         p: u32,
         start: u32,
         scratch: &mut Scratch,
     ) -> Result<Option<u32>, Error> {
-        if S::SHARED && !can_begin(self, vertices, p, start) {
+        if S::SHARED && !can_begin(self, p, start) {
             return Ok(None);
         }
-        // The new triangles are two more than the old ones.
-        if !find_cavity(self, &vertices.at(p), start, scratch) || !self.has_room(2) {
+        let here = vertices.at(p);
+        if (S::SHARED || W) && !in_conflict(self, &here, start) {
+            // The point is hidden, unless another thread has misled the walk.
+            return Ok((W && (!S::SHARED || contains(self, &here, start))).then_some(start));
+        }
+        // The new triangles are two more than the old ones, or fewer if vertices lie inside the cavity.
+        if !find_cavity(self, &here, start, scratch) || !self.has_room(2) {
             return Ok(None);
         }
-        let Scratch { conflict, boundary, .. } = scratch;
+        let Scratch { conflict, boundary, free, .. } = scratch;
+        if W && conflict.len() > boundary.len() {
+            for slot in conflict.drain(boundary.len()..) {
+                // No walk of another thread takes this for a triangle.
+                self.set_simplex(slot, [0; 3]);
+                free.push(slot);
+            }
+        }
+        if W {
+            let missing = boundary.len() - conflict.len();
+            conflict.extend(free.drain(free.len().saturating_sub(missing)..));
+        }
         while conflict.len() < boundary.len() {
             conflict.push(self.push()?);
         }
@@ -112,7 +143,10 @@ impl<S: Slots<3>> Insert<2> for S {
         Ok(Some(before))
     }
 
-    fn finish(&mut self, _scratch: Scratch) {}
+    fn finish(&mut self, mut scratch: Scratch) {
+        scratch.free.sort_unstable();
+        scratch.free.into_iter().rev().for_each(|slot| self.discard(slot));
+    }
 }
 
 /// Returns the ends of the edge opposite corner `k` of a triangle, with the triangle on the left.
@@ -124,15 +158,16 @@ pub(crate) fn edge_of(triangle: [u32; 3], k: usize) -> [u32; 2] {
 ///
 /// The circumcircle of a ghost is the half-plane beyond its edge and, on the edge's line, the edge
 /// itself: the part of the line inside the circumcircle of the triangle on the other side of the
-/// edge.
+/// edge. With weights, that is not the edge.
 #[inline]
-pub(crate) fn in_conflict(slots: &impl Slots<3>, here: &PredicatesAt<'_, '_, 2>, t: u32) -> bool {
+pub(crate) fn in_conflict<const W: bool>(slots: &impl Slots<3>, here: &PredicatesAt<'_, '_, 2, W>, t: u32) -> bool {
     let v = slots.simplex(t);
     match v.iter().position(|&v| v == slots.infinite()) {
         None => here.incircle(v) > 0,
         Some(k) => {
             let [a, b] = edge_of(v, k);
             match here.orient2d(a, b) {
+                0 if W => here.incircle(slots.simplex(slots.neighbors(t)[k] >> 2)) > 0,
                 0 => here.is_between(a, b),
                 side => side > 0,
             }
@@ -141,23 +176,35 @@ pub(crate) fn in_conflict(slots: &impl Slots<3>, here: &PredicatesAt<'_, '_, 2>,
 }
 
 /// Claims `p` and the vertices of `start`, to which a walk among triangles that other threads
-/// change has led. Returns whether `start` exists and is in conflict with `p`.
-fn can_begin(slots: &mut impl Slots<3>, vertices: &PredicateContext2<'_>, p: u32, start: u32) -> bool {
+/// change has led. Returns whether `start` exists.
+fn can_begin(slots: &mut impl Slots<3>, p: u32, start: u32) -> bool {
     let seen = slots.simplex(start);
-    seen[0] != seen[1]
-        && slots.claim(p)
-        && seen.iter().all(|&v| slots.claim(v))
-        && slots.simplex(start) == seen
-        && in_conflict(slots, &vertices.at(p), start)
+    seen[0] != seen[1] && slots.claim(p) && seen.iter().all(|&v| slots.claim(v)) && slots.simplex(start) == seen
+}
+
+/// Returns whether `t` is a triangle that contains the vertex `here`.
+fn contains<const W: bool>(slots: &impl Slots<3>, here: &PredicatesAt<'_, '_, 2, W>, t: u32) -> bool {
+    let v = slots.simplex(t);
+    let is_within = |k: usize| {
+        let [a, b] = edge_of(v, k);
+        here.orient2d(a, b) >= 0
+    };
+    !v.contains(&slots.infinite()) && (0..3).all(is_within)
 }
 
 /// Lists the triangles in conflict with the vertex `here`, and the edges around them, counter-clockwise,
 /// depth-first. Returns whether all their vertices could be claimed.
 ///
-/// No vertex lies inside the cavity, so the adjacencies of its triangles form a tree, and none is
-/// visited twice.
-fn find_cavity<S: Slots<3>>(slots: &mut S, here: &PredicatesAt<'_, '_, 2>, start: u32, scratch: &mut Scratch) -> bool {
-    let Scratch { conflict, boundary, pending } = scratch;
+/// Without weights no vertex lies inside the cavity, so the adjacencies of its triangles form a tree, and none is
+/// visited twice. With weights, the edges to triangles that have been visited already are left out. They are those
+/// along which the cavity would have to be cut to have no vertex inside, so the others stay in their order.
+fn find_cavity<S: Slots<3>, const W: bool>(
+    slots: &mut S,
+    here: &PredicatesAt<'_, '_, 2, W>,
+    start: u32,
+    scratch: &mut Scratch,
+) -> bool {
+    let Scratch { conflict, boundary, pending, large, .. } = scratch;
     conflict.clear();
     boundary.clear();
     pending.clear();
@@ -166,6 +213,9 @@ fn find_cavity<S: Slots<3>>(slots: &mut S, here: &PredicatesAt<'_, '_, 2>, start
     pending.extend([edge(slots, start, 2), edge(slots, start, 1), edge(slots, start, 0)]);
     while let Some(next) = pending.pop() {
         let (t, k) = (next.beyond >> 2, (next.beyond & 3) as usize);
+        if W && has(conflict, large, t) {
+            continue;
+        }
         if in_conflict(slots, here, t) {
             if S::SHARED && !slots.claim(slots.simplex(t)[k]) {
                 return false;
@@ -177,4 +227,17 @@ fn find_cavity<S: Slots<3>>(slots: &mut S, here: &PredicatesAt<'_, '_, 2>, start
         }
     }
     true
+}
+
+/// Returns whether a triangle is one of those in conflict, of which all but the last are in `large` if they are many.
+fn has(conflict: &[u32], large: &mut Large, t: u32) -> bool {
+    if conflict.len() <= FEW {
+        return conflict.contains(&t);
+    }
+    if conflict.len() == FEW + 1 {
+        large.clear();
+        large.extend(conflict);
+    }
+    large.extend(conflict.last());
+    large.contains(&t)
 }

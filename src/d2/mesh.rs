@@ -44,8 +44,17 @@ pub struct Mesh2 {
     pub hull: Vec<u32>,
     /// One entry per point: the lowest index of a point with the same coordinates, which stands for
     /// this one in the mesh; [`NONE`](crate::NONE) for points that are vertices themselves. Points
-    /// that were [removed](crate::Triangulator::remove) are unused, and their own duplicates.
+    /// that were [removed](crate::Triangulator::remove) are unused, and their own duplicates. With weights,
+    /// the heaviest of equal points stands for the others; of several, that with the lowest index.
     pub duplicate_of: Vec<u32>,
+    /// The points that are no vertices because of their weights, in ascending order, without duplicates; always empty if
+    /// there are no [`weights`](Self::weights), or no triangles.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub hidden: Vec<u32>,
+    /// The weights of the points, if the mesh is their regular triangulation:
+    /// [`Triangulator::regular2d`](crate::Triangulator::regular2d). Empty for a Delaunay triangulation.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub weights: Vec<f64>,
     /// The affine dimension of the input: 2; or 1 or 0 if all points are collinear or equal, in
     /// which case there are no triangles. No points at all have dimension 0.
     pub dimension: u8,

@@ -164,6 +164,15 @@ impl Triangulation2 {
         self.neighbors[f as usize / 4][f as usize % 4] = e;
     }
 
+    /// Moves the last triangle into an unused slot.
+    fn close_gap(&mut self, t: u32) {
+        self.triangles.swap_remove(t as usize);
+        self.neighbors.swap_remove(t as usize);
+        for (across, k) in self.neighbors.get(t as usize).copied().into_iter().flatten().zip(0..) {
+            self.neighbors[across as usize / 4][across as usize % 4] = 4 * t + k;
+        }
+    }
+
     /// Returns the vertices of the hull, clockwise with the *y* axis up: those around the infinite
     /// vertex, beginning at a ghost.
     fn hull_from(&self, first: u32) -> Vec<u32> {
@@ -258,4 +267,4 @@ impl Triangulation2 {
     }
 }
 
-slots::slots_of_arrays!(Triangulation2, 3, triangles, MAX_TRIANGLES);
+slots::slots_of_arrays!(Triangulation2, 3, triangles, MAX_TRIANGLES, Triangulation2::close_gap);

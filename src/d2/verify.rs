@@ -2,6 +2,7 @@
 //! enough.
 
 use crate::verify::{
+    hidden::Simplices,
     input::{Input, dimension_2d},
     report::{Check, Defect, Findings, Outcome, Report},
 };
@@ -11,6 +12,8 @@ use crate::{
     index::{Entry, NONE},
     input::points::Points2,
     predicates::{
+        Sign,
+        exact::power_sign,
         incircle, orient2d,
         symbolic::{break_tie, without},
     },
@@ -46,6 +49,10 @@ pub struct MeshView2<'a> {
     pub duplicate_of: Option<&'a [u32]>,
     /// The affine dimension of the points: see [`Mesh2::dimension`].
     pub dimension: Option<u8>,
+    /// The weights of the points, if the mesh is to be their regular triangulation: see [`Mesh2::weights`].
+    pub weights: Option<&'a [f64]>,
+    /// The points that are no vertices because of their weights: see [`Mesh2::hidden`].
+    pub hidden: Option<&'a [u32]>,
 }
 
 impl<'a> MeshView2<'a> {
@@ -64,12 +71,14 @@ impl<'a> From<&'a Mesh2> for MeshView2<'a> {
             hull: Some(&mesh.hull),
             duplicate_of: Some(&mesh.duplicate_of),
             dimension: Some(mesh.dimension),
+            weights: (!mesh.weights.is_empty()).then_some(&mesh.weights),
+            hidden: Some(&mesh.hidden),
         }
     }
 }
 
-/// Checks that `mesh`, whoever computed it, is the Delaunay triangulation of `points`, except for
-/// those that it states to be [unused](Mesh2::is_unused).
+/// Checks that `mesh`, whoever computed it, is the Delaunay triangulation of `points`, or the regular one
+/// if it states weights, except for those that it states to be [unused](Mesh2::is_unused).
 ///
 /// ```
 /// use gdel::{MeshView2, verify2d};
@@ -85,7 +94,7 @@ impl<'a> From<&'a Mesh2> for MeshView2<'a> {
 /// Returns the errors of [`verify3d`](crate::d3::verify::verify3d).
 pub fn verify2d<'p, 'm>(points: impl Into<Points2<'p>>, mesh: impl Into<MeshView2<'m>>) -> Result<Report, Error> {
     let mesh = mesh.into();
-    let input = Input::new(points.into(), mesh.duplicate_of, dimension_2d)?;
+    let input = Input::new(points.into(), mesh.weights, mesh.duplicate_of, dimension_2d)?;
     let mut report = input.report(mesh.dimension, mesh.duplicate_of);
     report.counts.facets = mesh.triangles.len();
     let indices = check_indices(mesh.triangles, input.points.len()).into();
@@ -109,7 +118,7 @@ pub fn verify2d<'p, 'm>(points: impl Into<Points2<'p>>, mesh: impl Into<MeshView
         }
         findings
     });
-    report.decide_delaunay(|| complex.check_delaunay(&input.points));
+    report.decide_delaunay(|| complex.check_delaunay(&input));
     let mut polygon = Vec::new();
     let closed = complex.check_hull_closed(&mut polygon);
     report.decide(Check::Hull, || {
@@ -121,6 +130,18 @@ pub fn verify2d<'p, 'm>(points: impl Into<Points2<'p>>, mesh: impl Into<MeshView
     });
     report.decide(Check::HullClosed, || closed);
     report.decide(Check::HullConvex, || check_hull_convex(&input.points, &polygon));
+    let simplices = Simplices {
+        simplices: mesh.triangles,
+        // The edge opposite vertex k begins at the next.
+        across: &|t, k| match complex.halfedges[t][(k + 1) % 3] {
+            NONE => NONE,
+            across => across / 3,
+        },
+        orientation: |[a, b, c]| orient2d(a, b, c),
+        is_below: &|[a, b, c], d| incircle_of(&input, [a, b, c, d]).iter().any(|&sign| sign > 0),
+        blame: Defect::at_triangle,
+    };
+    report.decide(Check::Hidden, || simplices.check(&input, mesh.hidden));
     Ok(report)
 }
 
@@ -191,6 +212,26 @@ fn check_hull(stated: &[u32], expected: Vec<u32>) -> Findings {
         findings.add(|| Defect::in_mesh(format!("the hull has point {found} in the place of {expected}")));
     }
     findings
+}
+
+/// Returns the sign of the in-circle determinant of the last of four points, or that of the lifted points
+/// with weights; then, if it vanishes, that of the tie.
+#[inline(always)]
+fn incircle_of(input: &Input<2>, four: [u32; 4]) -> [Sign; 2] {
+    let at = |v: u32| input.points[v as usize];
+    let [a, b, c, d] = four.map(at);
+    let sign = if input.weights.is_empty() {
+        incircle(a, b, c, d)
+    } else {
+        power_sign([a, b, c, d], four.map(|v| input.weights[v as usize]))
+    };
+    let tie = || {
+        break_tie(four, |left_out| {
+            let [a, b, c] = without(four, left_out).map(at);
+            orient2d(a, b, c)
+        })
+    };
+    [sign, if sign == 0 { tie() } else { 0 }]
 }
 
 /// Triangles with the adjacency that follows from their vertices.
@@ -290,9 +331,8 @@ impl<'a> Complex<'a> {
     }
 
     /// Checks the Delaunay property and that of the ties. Needs counter-clockwise triangles.
-    fn check_delaunay(&self, points: &[[f64; 2]]) -> (Findings, Findings) {
+    fn check_delaunay(&self, input: &Input<2>) -> (Findings, Findings) {
         let (mut delaunay, mut ties) = (Findings::default(), Findings::default());
-        let at = |v: u32| points[v as usize];
         for (t, (&[a, b, c], across)) in self.triangles.iter().zip(&self.halfedges).enumerate() {
             for &e in across {
                 let e = e as usize;
@@ -301,16 +341,9 @@ impl<'a> Complex<'a> {
                     continue;
                 }
                 let beyond = self.triangles[e / 3][(e + 2) % 3];
-                let four = [a, b, c, beyond];
-                let (findings, kind) = match incircle(at(a), at(b), at(c), at(beyond)) {
-                    1 => (&mut delaunay, "is inside the circumcircle"),
-                    0 if break_tie(four, |left_out| {
-                        let [a, b, c] = without(four, left_out).map(at);
-                        orient2d(a, b, c)
-                    }) > 0 =>
-                    {
-                        (&mut ties, "is on the circumcircle, and inside by the order of the indices")
-                    }
+                let (findings, kind) = match incircle_of(input, [a, b, c, beyond]) {
+                    [1, _] => (&mut delaunay, "is inside the circumcircle"),
+                    [0, 1] => (&mut ties, "is on the circumcircle, and inside by the order of the indices"),
                     _ => continue,
                 };
                 findings.add(|| Defect::at_triangle(t, format!("point {beyond}, of triangle {}, {kind}", e / 3)));

@@ -3,6 +3,7 @@
 
 use crate::{
     d3::triangulation::state,
+    index::BuildIndexHasher,
     predicates::filter::{PredicatesAt, Row},
     slots::{Places, Slots},
 };
@@ -93,7 +94,7 @@ impl<P: Places> CavityVertices<P> {
     /// Whether it has one cannot be predicted, and a wrong prediction takes longer than to write
     /// once more what is there. So there is no branch.
     #[inline]
-    pub(crate) fn give_place(&mut self, v: u32, here: &PredicatesAt<'_, '_, 3>) -> u32 {
+    pub(crate) fn give_place<const W: bool>(&mut self, v: u32, here: &PredicatesAt<'_, '_, 3, W>) -> u32 {
         let known = self.place_of(v) as usize;
         let is_new = (known >= self.count) | (self.vertices[known % PLACES] != v);
         let place = if is_new { self.count } else { known };
@@ -128,23 +129,7 @@ pub(crate) struct EdgeMap {
     /// here either.
     matrix: Box<[u32; EDGES]>,
     /// The same map from directed edges, for larger cavities.
-    table: HashMap<(u32, u32), u32, std::hash::BuildHasherDefault<EdgeHasher>>,
-}
-
-/// Hashes by a multiplication and a rotation per vertex. Edges are not chosen by an adversary.
-#[derive(Default)]
-struct EdgeHasher(u64);
-
-impl std::hash::Hasher for EdgeHasher {
-    fn finish(&self) -> u64 {
-        self.0
-    }
-    fn write(&mut self, bytes: &[u8]) {
-        bytes.iter().for_each(|&b| self.write_u32(b.into()));
-    }
-    fn write_u32(&mut self, x: u32) {
-        self.0 = (self.0 ^ u64::from(x)).wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(29);
-    }
+    table: HashMap<(u32, u32), u32, BuildIndexHasher>,
 }
 
 impl EdgeMap {

@@ -13,7 +13,11 @@ use crate::{
     input::{hilbert, order::Curve, points::Points3},
     options::Options,
     parallel::{self, Threads},
-    predicates::{collinear, filter::PredicateContext3, orient3d},
+    predicates::{
+        collinear,
+        filter::{PredicateContext, PredicateContext3},
+        orient3d,
+    },
     slots::{self, SharedSlots},
 };
 use std::ops::Range;
@@ -46,6 +50,15 @@ impl Incremental<3> for Dimension<3> {
     fn triangulate(
         threads: Threads,
         vertices: &PredicateContext3<'_>,
+        rounds: &[Range<u32>],
+        options: &Options,
+    ) -> Result<Triangulation3, Error> {
+        insert_all(threads, vertices, rounds, options)
+    }
+
+    fn triangulate_weighted(
+        threads: Threads,
+        vertices: &PredicateContext<'_, 3, true>,
         rounds: &[Range<u32>],
         options: &Options,
     ) -> Result<Triangulation3, Error> {
@@ -103,7 +116,7 @@ impl Grow<3> for Triangulation3 {
         used.iter().map(|&t| [self.vertices(t).map(corner), self.neighbors[t as usize].map(across)]).collect()
     }
 
-    fn insert_by_threads(self, run: &SharedRun<'_, 3>) -> Result<(Self, Vec<u32>), Error> {
+    fn insert_by_threads<const W: bool>(self, run: &SharedRun<'_, 3, W>) -> Result<(Self, Vec<u32>), Error> {
         let is_unused = |&t: &u32| self.state(t) == state::FREE;
         let unused = (0..self.tetrahedra.len() as u32).filter(is_unused).collect();
         let Triangulation3 { tetrahedra, neighbors, infinite } = self;

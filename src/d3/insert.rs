@@ -5,6 +5,9 @@
 //! hull to one infinite vertex, so that no facet is special. The in-sphere test breaks its ties
 //! symbolically and never returns zero, so the cavity is star-shaped, and no new tetrahedron is
 //! flat.
+//!
+//! With weights the test is the power test, and everything stays true except that vertices may lie inside the cavity:
+//! they become hidden. A point that is not in conflict with the tetrahedron that contains it is hidden, too.
 
 use crate::{
     cpu::Insert,
@@ -14,7 +17,7 @@ use crate::{
         triangulation::{MAX_TETRAHEDRA, state},
     },
     error::Error,
-    predicates::filter::{PredicateContext3, PredicatesAt},
+    predicates::filter::{PredicateContext, PredicatesAt},
     slots::MarkedSlots,
 };
 use std::array;
@@ -63,7 +66,7 @@ impl<S: MarkedSlots<4>> Insert<3> for S {
         }
     }
 
-    fn locate(&self, vertices: &PredicateContext3<'_>, p: u32, start: u32) -> u32 {
+    fn locate<const W: bool>(&self, vertices: &PredicateContext<'_, 3, W>, p: u32, start: u32) -> u32 {
         let is_ghost = corners(self, start)[3] == self.infinite();
         let mut t = if is_ghost { self.neighbors(start)[3] >> 2 } else { start };
         let here = vertices.at(p);
@@ -89,17 +92,22 @@ impl<S: MarkedSlots<4>> Insert<3> for S {
         }
     }
 
-    fn insert(
+    fn insert<const W: bool>(
         &mut self,
-        vertices: &PredicateContext3<'_>,
+        vertices: &PredicateContext<'_, 3, W>,
         p: u32,
         start: u32,
         scratch: &mut Self::Scratch,
     ) -> Result<Option<u32>, Error> {
-        if S::SHARED && !can_begin(self, vertices, p, start) {
+        if S::SHARED && !can_begin(self, p, start) {
             return Ok(None);
         }
-        if !find_cavity(self, &vertices.at(p), start, scratch) || !self.has_room(scratch.boundary.len()) {
+        let here = vertices.at(p);
+        if (S::SHARED || W) && !in_conflict(self, &here, start) {
+            // The point is hidden, unless another thread has misled the walk.
+            return Ok((W && (!S::SHARED || contains(self, &here, start))).then_some(start));
+        }
+        if !find_cavity(self, &here, start, scratch) || !self.has_room(scratch.boundary.len()) {
             undo_marks(self, scratch);
             return Ok(None);
         }
@@ -140,7 +148,11 @@ fn mark(slots: &mut impl MarkedSlots<4>, t: u32, state: u32) {
 /// circumdisc of the facet: the part of the plane inside the circumsphere of the tetrahedron on the
 /// other side of the facet.
 #[inline(always)]
-pub(crate) fn in_conflict(slots: &impl MarkedSlots<4>, here: &PredicatesAt<'_, '_, 3>, t: u32) -> bool {
+pub(crate) fn in_conflict<const W: bool>(
+    slots: &impl MarkedSlots<4>,
+    here: &PredicatesAt<'_, '_, 3, W>,
+    t: u32,
+) -> bool {
     let v = corners(slots, t);
     if v[3] != slots.infinite() {
         return here.insphere(v) > 0;
@@ -152,23 +164,28 @@ pub(crate) fn in_conflict(slots: &impl MarkedSlots<4>, here: &PredicatesAt<'_, '
 }
 
 /// Claims `p` and the vertices of `start`, to which a walk among tetrahedra that other threads
-/// change has led. Returns whether `start` exists and is in conflict with `p`.
-fn can_begin(slots: &mut impl MarkedSlots<4>, vertices: &PredicateContext3<'_>, p: u32, start: u32) -> bool {
+/// change has led. Returns whether `start` exists.
+fn can_begin(slots: &mut impl MarkedSlots<4>, p: u32, start: u32) -> bool {
     let seen = slots.simplex(start);
     seen[0] & state::MASK == state::UNKNOWN
         && seen[0] != seen[1]
         && slots.claim(p)
         && seen.iter().all(|&v| slots.claim(v))
         && slots.simplex(start) == seen
-        && in_conflict(slots, &vertices.at(p), start)
+}
+
+/// Returns whether `t` is a tetrahedron that contains the vertex `here`.
+fn contains<const W: bool>(slots: &impl MarkedSlots<4>, here: &PredicatesAt<'_, '_, 3, W>, t: u32) -> bool {
+    let v = corners(slots, t);
+    v[3] != slots.infinite() && FACETS.iter().all(|&[a, b, c]| here.orient3d(v[a], v[b], v[c]) <= 0)
 }
 
 /// Marks and lists the tetrahedra in conflict with the vertex `here`, and the facets around them,
 /// breadth-first. Returns whether all their vertices could be claimed.
 #[inline(never)]
-fn find_cavity<S: MarkedSlots<4>>(
+fn find_cavity<S: MarkedSlots<4>, const W: bool>(
     slots: &mut S,
-    here: &PredicatesAt<'_, '_, 3>,
+    here: &PredicatesAt<'_, '_, 3, W>,
     start: u32,
     scratch: &mut Scratch<S::Places>,
 ) -> bool {
@@ -230,9 +247,9 @@ fn find_cavity<S: MarkedSlots<4>>(
 /// Takes the tetrahedron beyond a facet, which is in conflict with the vertex `here`, into the cavity.
 /// Returns whether its vertex could be claimed.
 #[inline(always)]
-fn take_in<S: MarkedSlots<4>>(
+fn take_in<S: MarkedSlots<4>, const W: bool>(
     slots: &mut S,
-    here: &PredicatesAt<'_, '_, 3>,
+    here: &PredicatesAt<'_, '_, 3, W>,
     facet: u32,
     (conflict, boundary, vertices): (&mut Vec<u32>, &mut Vec<Facet>, &mut CavityVertices<S::Places>),
 ) -> bool {
@@ -261,9 +278,9 @@ fn facets<S: MarkedSlots<4>>(slots: &S, t: u32, vertices: &CavityVertices<S::Pla
 /// Returns whether what is beyond a facet is in conflict with the vertex `here`, from the value `det`
 /// of its in-sphere determinant, which does not decide. If not, marks it, lest this is asked again.
 #[inline(never)]
-fn test_again<S: MarkedSlots<4>>(
+fn test_again<S: MarkedSlots<4>, const W: bool>(
     slots: &mut S,
-    here: &PredicatesAt<'_, '_, 3>,
+    here: &PredicatesAt<'_, '_, 3, W>,
     det: f64,
     facet: Facet,
     vertices: &CavityVertices<S::Places>,

@@ -48,12 +48,23 @@ pub struct Mesh3 {
     /// Entry *k* of each tetrahedron is the tetrahedron across its facet *k*, or [`NONE`] outside
     /// the hull.
     pub neighbors: Vec<[u32; 4]>,
-    /// The triangles of the convex hull's boundary, counter-clockwise as seen from outside.
+    /// The triangles of the convex hull's boundary, counter-clockwise as seen from outside. None for points in a
+    /// plane, whose polygon, from both sides, is the [`AlphaShape`](crate::AlphaShape)'s surface for an infinite
+    /// radius.
     pub hull: Vec<[u32; 3]>,
     /// One entry per point: the lowest index of a point with the same coordinates, which stands for
     /// this one in the mesh; [`NONE`] for points that are vertices themselves. Points
-    /// that were [removed](crate::Triangulator::remove) are unused, and their own duplicates.
+    /// that were [removed](crate::Triangulator::remove) are unused, and their own duplicates. With weights,
+    /// the heaviest of equal points stands for the others; of several, that with the lowest index.
     pub duplicate_of: Vec<u32>,
+    /// The points that are no vertices because of their weights, in ascending order, without duplicates; always empty if
+    /// there are no [`weights`](Self::weights), or no tetrahedra.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub hidden: Vec<u32>,
+    /// The weights of the points, if the mesh is their regular triangulation:
+    /// [`Triangulator::regular3d`](crate::Triangulator::regular3d). Empty for a Delaunay triangulation.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub weights: Vec<f64>,
     /// The affine dimension of the input: 3; or 2, 1 or 0 if all points are coplanar, collinear or
     /// equal, in which case there are no tetrahedra. No points at all have dimension 0.
     pub dimension: u8,

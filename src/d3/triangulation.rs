@@ -238,7 +238,7 @@ pub(in crate::d3) struct Closing {
     pub(in crate::d3) moved_to: Vec<u32>,
 }
 
-slots::slots_of_arrays!(Triangulation3, 4, tetrahedra, MAX_TETRAHEDRA);
+slots::slots_of_arrays!(Triangulation3, 4, tetrahedra, MAX_TETRAHEDRA, |mesh, t| mesh.set_state(t, state::FREE));
 
 impl MarkedSlots<4> for Triangulation3 {
     type Places = Vec<u32>;
@@ -257,11 +257,6 @@ impl MarkedSlots<4> for Triangulation3 {
     fn first_and(&self, t: u32, k: usize) -> [u32; 2] {
         let vertices = &self.tetrahedra[t as usize];
         [vertices[0], vertices[k % 4]]
-    }
-
-    /// Marks the slot.
-    fn discard(&mut self, t: u32) {
-        self.set_state(t, state::FREE);
     }
 
     fn places(&self) -> Vec<u32> {

@@ -33,11 +33,15 @@ impl<'a, const D: usize, const N: usize> Complex<'a, D, N> {
     ///
     /// # Errors
     ///
-    /// [`Error::PointCount`], [`Error::NotFinite`] or [`Error::BrokenMesh`].
+    /// [`Error::PointCount`], [`Error::NotFinite`], [`Error::BrokenMesh`], or [`Error::WeightedMesh`].
     pub(crate) fn new(mesh: &'a impl Mesh<D, N>, points: Points<'a, D>) -> Result<Self, Error> {
         let (simplices, neighbors, duplicate_of) = (mesh.simplices(), mesh.opposites(), mesh.duplicate_of());
         if points.len() != duplicate_of.len() {
             return Err(Error::PointCount { points: points.len(), expected: duplicate_of.len() });
+        }
+        // All that is derived so far is derived from Delaunay triangulations.
+        if !mesh.weights().is_empty() {
+            return Err(Error::WeightedMesh);
         }
         points.validate_by(Threads::All)?;
         let broken = |reason| Err(Error::BrokenMesh { reason });
@@ -131,6 +135,11 @@ impl<'a, const D: usize, const N: usize> Complex<'a, D, N> {
             }
         }
         facet
+    }
+
+    /// Returns the points that are not duplicates of others.
+    pub(crate) fn vertices(&self) -> impl Iterator<Item = u32> + '_ {
+        (0..).zip(&*self.duplicate_of).filter(|&(_, &of)| of == NONE).map(|(i, _)| i)
     }
 
     /// Returns the vertex that stands for point `i`.

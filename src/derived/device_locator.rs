@@ -1,11 +1,11 @@
 //! Answers of the GPU for meshes that are there.
 
-use super::{Location, Locator, queries::CurveKey};
+use super::{Interpolation, Interpolator, Location, Locator, StolenMeasures, queries::CurveKey};
 use crate::{
     cpu::MeshOf,
     dimension::Dimension,
     error::Error,
-    geometry::{self, Euclidean, Geometry},
+    geometry::{self, Euclidean},
     gpu::{
         Storage,
         device_edges::DeviceEdges,
@@ -115,9 +115,9 @@ fn word_of(location: Location) -> i32 {
 
 /// Locates points in a mesh on the device.
 ///
-/// It answers as [`Locator`] does, exactly. Queries and answers may be slices, or buffers of the
-/// mesh's device, between which the host reads a few words. The points stay on the device, 32 bytes
-/// each, 16 in 2D.
+/// It answers as an [exact](Locator::exact) [`Locator`] does, without a tolerance. Queries and answers
+/// may be slices, or buffers of the mesh's device, between which the host reads a few words. The points
+/// stay on the device, 32 bytes each, 16 in 2D.
 ///
 /// The device decides signs by a filter with a proven bound, and then by integers. What it leaves
 /// open the host finds out: queries further away from the points than about half of their extent,
@@ -181,7 +181,7 @@ impl<'a, const D: usize, const N: usize> DeviceLocator<'a, D, N>
 where
     Dimension<D>: Dim<D> + MeshArrays<D>,
     MeshOf<D>: Mesh<D, N>,
-    Euclidean: Geometry<D, N>,
+    Euclidean: StolenMeasures<D, N>,
 {
     /// Creates a locator for a mesh on the device and its points, which are uploaded. Blocks the
     /// thread.
@@ -271,8 +271,8 @@ where
     }
 
     /// Returns the vertex that is nearest to each of many points, as
-    /// [`Locator::nearest_many`] does: the lowest of those at the same distance; `None` if the mesh
-    /// has no simplices. The first call finds the [edges](DeviceMesh::edges). Blocks the thread.
+    /// [`Locator::nearest_many`] does: the lowest of those at the same distance; `None` if there
+    /// are no points. The host answers for points in a plane or on a line. The first call finds the [edges](DeviceMesh::edges). Blocks the thread.
     ///
     /// # Examples
     ///
@@ -303,8 +303,7 @@ where
     pub async fn nearest_many_async<'q>(&self, queries: impl Into<Points<'q, D>>) -> Result<Vec<Option<u32>>, Error> {
         let queries = queries.into();
         let Some(on_device) = &self.on_device else {
-            queries.validate_by(Threads::All)?;
-            return Ok(vec![None; queries.len()]);
+            return self.host_locator().await?.nearest_many(queries);
         };
         let edges = self.edges().await?;
         let gpu = self.mesh.gpu();
@@ -380,7 +379,8 @@ where
     /// NaN outside the hull. Blocks the thread.
     ///
     /// The simplex is the one that contains the query, exactly, and the value is that of the vertex
-    /// at a vertex. Otherwise it is computed in single precision: with an error of at most 2⁻¹⁸
+    /// at a vertex. The host answers for points in a plane or on a line, within these. Otherwise it is
+    /// computed in single precision: with an error of at most 2⁻¹⁸
     /// times the largest value at the vertices of the simplex, if that is thicker than 2⁻³⁵ times the
     /// extent of the points. [`Interpolator`](crate::Interpolator) has other
     /// methods, and double precision.
@@ -422,8 +422,10 @@ where
         let queries = queries.into();
         self.check_values(values.len())?;
         let Some(on_device) = &self.on_device else {
-            queries.validate_by(Threads::All)?;
-            return Ok(vec![f32::NAN; queries.len()]);
+            let values: Vec<f64> = values.iter().map(|&value| value.into()).collect();
+            let locator = self.host_locator().await?;
+            let found = Interpolator::new(&locator, &values)?.interpolate_many(Interpolation::Linear, queries)?;
+            return Ok(found.values.into_iter().map(|value| value as f32).collect());
         };
         let gpu = self.mesh.gpu();
         let values = gpu.with_error_scope("values", || Storage::with_contents(gpu, "values", values)).await?;
@@ -487,7 +489,8 @@ where
     ///
     /// `values` is an array of `f32`, one per point, of the usage
     /// [`STORAGE`](wgpu::BufferUsages::STORAGE), `queries` as for
-    /// [`locate_buffer`](Self::locate_buffer). The results are an array of `f32`.
+    /// [`locate_buffer`](Self::locate_buffer). The results are an array of `f32`, all NaN if the mesh has no
+    /// simplices.
     ///
     /// # Errors
     ///
@@ -669,7 +672,7 @@ where
 
     /// Returns the locator of the host.
     async fn host_locator(&self) -> Result<Locator<'_, D, N>, Error> {
-        Locator::new(self.host_mesh().await?, self.points)
+        Ok(Locator::new(self.host_mesh().await?, self.points)?.exact())
     }
 
     /// Locates the queries in a buffer.

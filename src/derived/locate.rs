@@ -3,6 +3,7 @@
 
 use super::{
     complex::Complex,
+    flat::Flat,
     queries::{CurveKey, map_along_curve},
 };
 use crate::{
@@ -69,7 +70,13 @@ impl Location {
 /// Create one for a mesh with its points and use it for many queries: it holds a few places to
 /// start from, and after the first search for nearest vertices also the neighbours of each vertex.
 /// All answers are exact for all finite `f64` queries, `f32` included. Those for many queries are
-/// found by all threads, and are the same as for the queries one by one.
+/// found by all threads, and are the same as for the queries one by one, if these are as precise.
+///
+/// Queries on the border of the hull are rounded, and so may be outside by a little. A query that is
+/// so near to the hull counts as inside: the box around it meets the hull that reaches along each
+/// axis as far as four units in the last place of the largest coordinate of the points there (2⁻⁵⁰
+/// of it; 2⁻²¹ if the points or the queries are in single precision). [`exact`](Self::exact) gives
+/// that up. Whether the box meets the hull is decided exactly.
 ///
 #[cfg_attr(doc, doc = concat!("<div>\n", include_str!("../../docs/answers/locate.svg"), "</div>"))]
 ///
@@ -105,6 +112,10 @@ pub struct Locator<'a, const D: usize = 3, const N: usize = 4> {
     starts: Vec<u64>,
     /// The neighbours of each vertex, once they have been asked for.
     pub(super) neighbors: OnceLock<Csr>,
+    /// The points in their own dimension, if these are fewer.
+    pub(super) flat: Option<Flat>,
+    /// Whether queries outside the hull count as such, however near they are.
+    pub(super) is_exact: bool,
 }
 
 /// Locates points in a 2D mesh.
@@ -132,12 +143,13 @@ where
     /// # Errors
     ///
     /// [`Error::PointCount`] if these are not the points of the mesh, [`Error::NotFinite`] if one
-    /// of them is not finite, and [`Error::BrokenMesh`] if the mesh's arrays contradict each other.
+    /// of them is not finite, [`Error::BrokenMesh`] if the mesh's arrays contradict each other, and
+    /// [`Error::WeightedMesh`] if its points are weighted.
     pub fn new(mesh: &'a impl Mesh<D, N>, points: impl Into<Points<'a, D>>) -> Result<Self, Error> {
-        Complex::new(mesh, points.into()).map(Locator::of)
+        Complex::new(mesh, points.into()).and_then(Locator::of)
     }
 
-    pub(super) fn of(complex: Complex<'a, D, N>) -> Self {
+    pub(super) fn of(complex: Complex<'a, D, N>) -> Result<Self, Error> {
         let bounds = complex.bounds();
         let key = CurveKey::new(bounds);
         let start = |(t, simplex): (usize, &[u32; N])| {
@@ -148,7 +160,32 @@ where
         starts.sort_unstable();
         let orientation_bound = orientation_bound(bounds);
         let scale = vector::scale_of(bounds);
-        Locator { complex, bounds, orientation_bound, scale, key, starts, neighbors: OnceLock::new() }
+        let flat = Flat::new(&complex)?;
+        let neighbors = OnceLock::new();
+        Ok(Locator { complex, bounds, orientation_bound, scale, key, starts, neighbors, flat, is_exact: false })
+    }
+
+    /// Returns the locator without a tolerance: queries outside the hull count as such, however near
+    /// they are.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use gdel::{Location, Locator};
+    ///
+    /// let points = [[0.0, 0.0], [0.3, 0.1], [0.0, 1.0f64]];
+    /// let mesh = gdel::delaunay2d(&points)?;
+    /// let locator = Locator::new(&mesh, &points)?;
+    /// // A tenth of the way from the first point to the second, and outside by 10⁻¹⁸.
+    /// let query = [0.03, 0.01];
+    /// assert_eq!(locator.locate(query)?, Location::Inside(0));
+    /// assert_eq!(locator.exact().locate(query)?.simplex(), None);
+    /// # Ok::<(), gdel::Error>(())
+    /// ```
+    #[must_use]
+    pub fn exact(mut self) -> Self {
+        self.is_exact = true;
+        self
     }
 
     /// Returns where a point lies.
@@ -162,7 +199,8 @@ where
     /// not the Delaunay triangulation of the points.
     pub fn locate(&self, query: [f64; D]) -> Result<Location, Error> {
         Points::F64(&[query]).validate()?;
-        Ok(self.place(query)?.map_or(Location::Nowhere, |place| self.name(place)))
+        let reach = self.reach(Points::F64(&[]));
+        Ok(self.place(query, reach)?.map_or(Location::Nowhere, |place| self.name(place)))
     }
 
     /// Returns where each of many points lies.
@@ -171,17 +209,19 @@ where
     ///
     /// The same as for [`locate`](Self::locate).
     pub fn locate_many<'q>(&self, queries: impl Into<Points<'q, D>>) -> Result<Vec<Location>, Error> {
-        map_along_curve(queries.into(), self.key, |run| match self.places(run)? {
+        let queries = queries.into();
+        let reach = self.reach(queries);
+        map_along_curve(queries, self.key, |run| match self.places(run, reach)? {
             Some(places) => Ok(places.into_iter().map(|place| self.name(place)).collect()),
             None => Ok(vec![Location::Nowhere; run.len()]),
         })
     }
 
     /// Returns the place of a query; `None` if there are no simplices.
-    pub(super) fn place(&self, query: [f64; D]) -> Result<Option<Place>, Error> {
+    pub(super) fn place(&self, query: [f64; D], reach: Option<[f64; D]>) -> Result<Option<Place<D>>, Error> {
         let Some(start) = self.start(query) else { return Ok(None) };
         let place = self.walk(query, start)?;
-        if place.beyond.is_some() { self.place_outside(query).map(Some) } else { Ok(Some(place)) }
+        if place.beyond.is_some() { self.place_outside(query, reach).map(Some) } else { Ok(Some(place)) }
     }
 
     /// Returns the places of queries of which consecutive ones are near each other; `None` if there
@@ -189,8 +229,8 @@ where
     ///
     /// Each step of a walk waits for memory whose address the step before has read. Several walks
     /// take turns, so that they wait at the same time.
-    pub(super) fn places(&self, queries: &[[f64; D]]) -> Result<Option<Vec<Place>>, Error> {
-        let mut places = vec![Place { simplex: 0, beyond: None, on_facet: false }; queries.len()];
+    pub(super) fn places(&self, queries: &[[f64; D]], reach: Option<[f64; D]>) -> Result<Option<Vec<Place<D>>>, Error> {
+        let mut places = vec![Place { at: [0.0; D], simplex: 0, beyond: None, on_facet: false }; queries.len()];
         let mut walks = Vec::with_capacity(WALKS);
         let share = queries.len().div_ceil(WALKS).max(1);
         for (w, part) in queries.chunks(share).enumerate() {
@@ -215,7 +255,7 @@ where
                     continue;
                 };
                 let is_outside = place.beyond.is_some();
-                places[*at] = if is_outside { self.place_outside(step.query)? } else { place };
+                places[*at] = if is_outside { self.place_outside(step.query, reach)? } else { place };
                 *at += 1;
                 if at < end {
                     *step = self.first_step(queries[*at], place.simplex);
@@ -229,11 +269,11 @@ where
     }
 
     /// Returns the public form of a place.
-    fn name(&self, place: Place) -> Location {
+    fn name(&self, place: Place<D>) -> Location {
         match place.beyond {
-            None => Location::Inside(place.simplex),
-            Some(k) => {
-                Location::Outside { simplex: place.simplex, facet: <Euclidean as Geometry<D, N>>::FACET_NUMBERS[k] }
+            None | Some(Beyond { near: true, .. }) => Location::Inside(place.simplex),
+            Some(Beyond { facet, .. }) => {
+                Location::Outside { simplex: place.simplex, facet: <Euclidean as Geometry<D, N>>::FACET_NUMBERS[facet] }
             }
         }
     }
@@ -262,7 +302,7 @@ where
     }
 
     /// Walks from a simplex to the place of a query.
-    fn walk(&self, query: [f64; D], start: usize) -> Result<Place, Error> {
+    pub(super) fn walk(&self, query: [f64; D], start: usize) -> Result<Place<D>, Error> {
         let mut step = self.first_step(query, start);
         loop {
             let (simplex, neighbors) = self.complex.row(step.simplex);
@@ -278,7 +318,7 @@ where
     /// nearest place to start from, it crosses the first facet that separates a simplex from the
     /// query. Kernels walk the same way (`shaders/common/query_walk.wgsl`).
     #[inline(never)]
-    fn place_outside(&self, query: [f64; D]) -> Result<Place, Error> {
+    fn place_outside(&self, query: [f64; D], reach: Option<[f64; D]>) -> Result<Place<D>, Error> {
         let start = self.start(query).expect("a query is outside only if there are simplices");
         let mut step = self.first_step(query, start);
         loop {
@@ -288,17 +328,18 @@ where
             let separates = |&k: &usize| neighbors[k] != step.before && side(step.bound, &corners, &rows, k, query) < 0;
             let Some(k) = (0..N).find(separates) else { return Err(ENDLESS) };
             if let Some(place) = self.cross(&mut step, k, neighbors[k])? {
-                return Ok(place);
+                return reach.map_or(Ok(place), |reach| self.place_near(query, (place.simplex, k), reach));
             }
         }
     }
 
     /// Continues a walk across facet `k`, or returns that it ends there, outside the hull.
     #[inline(always)]
-    fn cross(&self, step: &mut Step<D>, k: usize, across: u32) -> Result<Option<Place>, Error> {
-        let &mut Step { simplex, left, .. } = step;
+    fn cross(&self, step: &mut Step<D>, k: usize, across: u32) -> Result<Option<Place<D>>, Error> {
+        let &mut Step { query, simplex, left, .. } = step;
         if across == NONE {
-            return Ok(Some(Place { simplex, beyond: Some(k), on_facet: false }));
+            let beyond = Some(Beyond { facet: k, near: false });
+            return Ok(Some(Place { at: query, simplex, beyond, on_facet: false }));
         }
         if left == 0 {
             return Err(ENDLESS);
@@ -326,7 +367,12 @@ where
     /// less that nothing could predict. With every step the power distance of the query to the
     /// circumsphere decreases, perturbed as the triangulation's ties are, so it ends.
     #[inline(always)]
-    fn take(&self, step: &mut Step<D>, corners: &[[f64; D]; N], neighbors: &[u32; N]) -> Result<Option<Place>, Error> {
+    fn take(
+        &self,
+        step: &mut Step<D>,
+        corners: &[[f64; D]; N],
+        neighbors: &[u32; N],
+    ) -> Result<Option<Place<D>>, Error> {
         let &mut Step { query, bound, simplex, before, .. } = step;
         let determinants = Euclidean::facet_determinants(&vector::relative(corners, query));
         let (mut exit, mut least, mut is_open) = (None, -bound, false);
@@ -347,7 +393,7 @@ where
             return self.cross(step, k, neighbors[k]);
         }
         let simplex = if on_facet { self.first_around(query, simplex) } else { simplex };
-        Ok(Some(Place { simplex, beyond: None, on_facet }))
+        Ok(Some(Place { at: query, simplex, beyond: None, on_facet }))
     }
 
     /// Returns the first of some facets that separates a simplex with these corners from a query,
@@ -436,12 +482,23 @@ struct Step<const D: usize> {
 
 /// A simplex that contains a point, or one of whose facets sees it.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Place {
+pub(super) struct Place<const D: usize> {
+    /// The point: the query, or a place inside the hull that is so near to it that it stands for it.
+    pub(super) at: [f64; D],
     pub(super) simplex: usize,
-    /// The facet, opposite vertex *k*, that sees a point outside the hull.
-    pub(super) beyond: Option<usize>,
+    /// What a point outside the hull is beyond.
+    pub(super) beyond: Option<Beyond>,
     /// Whether a point that is inside lies on a facet of the simplex.
     pub(super) on_facet: bool,
+}
+
+/// A facet of the hull that sees a point.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Beyond {
+    /// The facet is opposite vertex *k*.
+    pub(super) facet: usize,
+    /// Whether the point is so near to the facet that it counts as inside.
+    pub(super) near: bool,
 }
 
 /// Returns a bound of the error of orientations of points within a box.

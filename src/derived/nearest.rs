@@ -21,8 +21,8 @@ impl<const D: usize, const N: usize> Locator<'_, D, N>
 where
     Euclidean: Geometry<D, N>,
 {
-    /// Returns the vertex that is nearest to a point, inside the hull or outside; `None` if the
-    /// mesh has no simplices. Of several vertices at the same distance it is the one with the
+    /// Returns the vertex that is nearest to a point, inside the hull or outside; `None` if there are no
+    /// points. Of several vertices at the same distance it is the one with the
     /// lowest index.
     ///
     /// # Errors
@@ -30,8 +30,8 @@ where
     /// [`Error::NotFinite`].
     pub fn nearest(&self, query: [f64; D]) -> Result<Option<u32>, Error> {
         Points::F64(&[query]).validate()?;
-        let Some(start) = self.start(query) else { return Ok(None) };
-        Ok(Some(self.nearest_from(self.vertex_neighbors(), query, self.complex.simplices[start][0])))
+        let start = self.start_vertex(query);
+        Ok(start.map(|start| self.nearest_from(self.vertex_neighbors(), query, start)))
     }
 
     /// Returns the vertex that is nearest to each of many points: see [`nearest`](Self::nearest).
@@ -55,8 +55,8 @@ where
         map_along_curve(queries.into(), self.key, |run| {
             let mut last = None;
             let nearest = |&query: &[f64; D]| {
-                let start = || self.start(query).map(|start| self.complex.simplices[start][0]);
-                last = last.or_else(start).map(|start| self.nearest_from(neighbors, query, start));
+                last =
+                    last.or_else(|| self.start_vertex(query)).map(|start| self.nearest_from(neighbors, query, start));
                 last
             };
             Ok(run.iter().map(nearest).collect())
@@ -64,8 +64,7 @@ where
     }
 
     /// Returns the `k` vertices that are nearest to a point, in order of their distances, those at
-    /// the same distance in order of their indices; all vertices if there are no more than `k`, and
-    /// none if the mesh has no simplices.
+    /// the same distance in order of their indices; all vertices if there are no more than `k`.
     ///
     /// # Errors
     ///
@@ -103,13 +102,22 @@ where
         Ok(found)
     }
 
+    /// Returns a vertex that is probably near a point.
+    fn start_vertex(&self, query: [f64; D]) -> Option<u32> {
+        let flat = || self.flat.as_ref().map(|flat| flat.start(&self.complex, query));
+        self.start(query).map(|start| self.complex.simplices[start][0]).or_else(flat)
+    }
+
     /// Returns the neighbours of each vertex.
     pub(super) fn vertex_neighbors(&self) -> &Csr {
+        if let Some(flat) = &self.flat {
+            return &flat.neighbors;
+        }
         self.neighbors.get_or_init(|| Csr::vertex_neighbors(&self.complex.simplices, self.complex.points().len()))
     }
 
     /// Walks from a vertex to the one nearest to a query.
-    fn nearest_from(&self, neighbors: &Csr, query: [f64; D], start: u32) -> u32 {
+    pub(super) fn nearest_from(&self, neighbors: &Csr, query: [f64; D], start: u32) -> u32 {
         let squared = |p: [f64; D]| vector::squared_norm(vector::minus(query, p));
         let mut best = start;
         let mut best_point = self.complex.point(start);

@@ -97,28 +97,42 @@ pub(crate) fn map_along_curve<const D: usize, const N: usize, R: Copy + Send>(
 where
     Euclidean: Geometry<D, N>,
 {
-    queries.validate_by(Threads::All)?;
-    if queries.len() > u32::MAX as usize {
-        return Err(Error::TooManyPoints { points: queries.len(), limit: u32::MAX as usize });
-    }
-    let order = order_along_curve(queries, key);
-    let results = parallel::map_grains(Threads::All, order.len(), GRAIN, |range| {
-        let mut results = Vec::with_capacity(range.len());
-        let mut run = Vec::with_capacity(GRAIN.min(range.len()));
-        for part in order[range].chunks(GRAIN) {
-            run.clear();
-            run.extend(part.iter().map(|&query| queries.get(query as usize)));
-            results.extend(work(&run)?);
-        }
-        Ok(results)
-    });
-    let mut results = results.into_iter().collect::<Result<Vec<Vec<R>>, Error>>()?.into_iter().flatten();
+    let (order, results) = along_curve(queries, key, work)?;
+    let mut results = results.into_iter().flatten();
     let Some(first) = results.next() else { return Ok(Vec::new()) };
     let mut sorted = vec![first; queries.len()];
     for (&query, result) in order[1..].iter().zip(results) {
         sorted[query as usize] = result;
     }
     Ok(sorted)
+}
+
+/// Calls `work` with runs of queries that are consecutive along the curve. Returns the queries in their order
+/// along it, and the result of each run.
+pub(super) fn along_curve<const D: usize, const N: usize, R: Send>(
+    queries: Points<'_, D>,
+    key: CurveKey<D>,
+    work: impl Fn(&[[f64; D]]) -> Result<R, Error> + Sync,
+) -> Result<(Vec<u32>, Vec<R>), Error>
+where
+    Euclidean: Geometry<D, N>,
+{
+    queries.validate_by(Threads::All)?;
+    if queries.len() > u32::MAX as usize {
+        return Err(Error::TooManyPoints { points: queries.len(), limit: u32::MAX as usize });
+    }
+    let order = order_along_curve(queries, key);
+    let results = parallel::map_grains(Threads::All, order.len(), GRAIN, |range| {
+        let mut run = Vec::with_capacity(GRAIN.min(range.len()));
+        let parts = order[range].chunks(GRAIN).map(|part| {
+            run.clear();
+            run.extend(part.iter().map(|&query| queries.get(query as usize)));
+            work(&run)
+        });
+        parts.collect::<Result<Vec<R>, Error>>()
+    });
+    let results = results.into_iter().collect::<Result<Vec<Vec<R>>, Error>>()?;
+    Ok((order, results.into_iter().flatten().collect()))
 }
 
 /// Returns the indices of points in their order along the curve. There are at most 2³² points.
@@ -130,7 +144,7 @@ where
 }
 
 /// Returns the places of points along the curve.
-fn places<const D: usize, const N: usize>(points: Points<'_, D>, key: CurveKey<D>) -> Vec<u32>
+pub(super) fn places<const D: usize, const N: usize>(points: Points<'_, D>, key: CurveKey<D>) -> Vec<u32>
 where
     Euclidean: Geometry<D, N>,
 {

@@ -2,7 +2,8 @@
 
 use super::{
     complex::{Complex, Coordinates},
-    queries::{CurveKey, order_along_curve},
+    groups::Groups,
+    queries::{CurveKey, places},
 };
 use crate::{
     geometry::{Euclidean, Geometry},
@@ -33,32 +34,34 @@ where
     Euclidean: Geometry<D, N>,
 {
     pub(super) fn new(complex: &Complex<'_, D, N>) -> Self {
-        let key = CurveKey::new(complex.bounds());
-        let mut points = order_along_curve(complex.points(), key);
+        let keys = places(complex.points(), CurveKey::new(complex.bounds()));
+        let mut points = parallel::order_of(Threads::All, keys.clone());
         // Points in the same cell by their coordinates, so that the input's order does not matter.
-        let place = |i: u32| key.of::<N>(complex.point(i));
-        for cell in points.chunk_by_mut(|&i, &j| place(i) == place(j)) {
+        for cell in points.chunk_by_mut(|&i, &j| keys[i as usize] == keys[j as usize]).filter(|cell| cell.len() > 1) {
             let order =
                 |&i: &u32, &j: &u32| complex.point(i).partial_cmp(&complex.point(j)).map(|order| order.then(i.cmp(&j)));
             cell.sort_unstable_by(|i, j| order(i, j).unwrap_or_else(|| i.cmp(j)));
         }
+        drop(keys);
         let ranks = inverse(&points);
-        let firsts = map(complex.simplices.len(), |t| {
+        let firsts = map(complex.simplices.len(), 0, |t| {
             let ranks = complex.simplices[t].map(|v| ranks[v as usize]);
             ranks.into_iter().fold(u32::MAX, u32::min)
         });
-        let simplices = parallel::order_of(Threads::All, firsts);
+        let simplices = Groups::new(points.len(), firsts.iter().copied().zip(0..)).items;
+        drop(firsts);
         let places = inverse(&simplices);
         let rank_or_none = |i: u32, ranks: &[u32]| if i == NONE { NONE } else { ranks[i as usize] };
+        let row = [0; N];
         let sorted = Complex {
-            points: Coordinates::Owned(map(points.len(), |rank| complex.point(points[rank]))),
-            simplices: Cow::Owned(map(simplices.len(), |place| {
+            points: Coordinates::Owned(map(points.len(), [0.0; D], |rank| complex.point(points[rank]))),
+            simplices: Cow::Owned(map(simplices.len(), row, |place| {
                 complex.simplices[simplices[place] as usize].map(|v| ranks[v as usize])
             })),
-            neighbors: Cow::Owned(map(simplices.len(), |place| {
+            neighbors: Cow::Owned(map(simplices.len(), row, |place| {
                 complex.neighbors[simplices[place] as usize].map(|t| rank_or_none(t, &places))
             })),
-            duplicate_of: Cow::Owned(map(points.len(), |rank| {
+            duplicate_of: Cow::Owned(map(points.len(), 0, |rank| {
                 rank_or_none(complex.duplicate_of[points[rank] as usize], &ranks)
             })),
         };
@@ -85,9 +88,15 @@ where
     }
 }
 
-/// Returns the results of `work` for the numbers below `len`. Threads share the work.
-fn map<R: Clone + Send>(len: usize, work: impl Fn(usize) -> R + Sync) -> Vec<R> {
-    parallel::joined(parallel::map_ranges(Threads::All, len, |range| range.map(&work).collect()))
+/// Returns the results of `work` for the numbers below `len`; `empty` may be any. Threads share the work.
+fn map<R: Copy + Send + Sync>(len: usize, empty: R, work: impl Fn(usize) -> R + Sync) -> Vec<R> {
+    let mut results = parallel::filled(Threads::All, len, empty);
+    parallel::for_chunks(Threads::All, &mut results, |start, chunk| {
+        for (result, i) in chunk.iter_mut().zip(start..) {
+            *result = work(i);
+        }
+    });
+    results
 }
 
 /// Returns an even permutation that sorts the row, except that its last two entries may descend.

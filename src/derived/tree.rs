@@ -1,6 +1,6 @@
 //! The Euclidean minimum spanning tree, a subgraph of every Delaunay triangulation.
 
-use super::{complex::Complex, sets::DisjointSets};
+use super::{complex::Complex, flat::Flat, sets::DisjointSets};
 use crate::{
     error::Error,
     geometry::{Euclidean, Geometry, SquaredLength, compare_lengths, surely_larger, vector},
@@ -11,7 +11,7 @@ use crate::{
 };
 use std::cmp::Ordering;
 
-/// The Euclidean minimum spanning tree of the vertices of a mesh: the shortest connection of all of
+/// The Euclidean minimum spanning tree of the points of a mesh: the shortest connection of all of
 /// them.
 ///
 /// Of several edges of exactly the same length the one with the lower vertices comes first, so the
@@ -37,8 +37,8 @@ use std::cmp::Ordering;
 #[derive(Debug, Clone, Default, PartialEq)]
 #[non_exhaustive]
 pub struct SpanningTree {
-    /// The edges, the lower vertex first, in the order of their lengths. There is one less than
-    /// vertices, and none at all if the mesh has no simplices.
+    /// The edges, the lower point first, in the order of their lengths. There is one less than points:
+    /// each duplicate has an edge of length 0 to its vertex. [Unused](crate::Mesh3::is_unused) points have none.
     pub edges: Vec<[u32; 2]>,
     /// The length of each edge, with a relative error below 2⁻⁵⁰.
     pub lengths: Vec<f64>,
@@ -88,7 +88,15 @@ impl SpanningTree {
             };
             lengths.cmp(&0).then(a.edge.cmp(&b.edge))
         };
-        let edges = kruskal(complex.points().len(), candidates(&complex), compare);
+        let length = |[v, w]: [u32; 2]| SquaredLength::new(complex.point(v), complex.point(w));
+        let mut candidates = match Flat::new(&complex)? {
+            None => candidates(&complex),
+            Some(flat) => flat.edges().map(|edge| Candidate { length: length(edge), edge }).collect(),
+        };
+        let duplicates = (0..).zip(&*complex.duplicate_of).filter(|&(i, &of)| of != NONE && of != i);
+        let to_vertices = duplicates.map(|(i, &of)| [of.min(i), of.max(i)]);
+        candidates.extend(to_vertices.map(|edge| Candidate { length: length(edge), edge }));
+        let edges = kruskal(complex.points().len(), candidates, compare);
         let length = |&Candidate { length, edge: [v, w] }: &Candidate| {
             let measured = || vector::norm(vector::minus(complex.point(v), complex.point(w)));
             length.root().unwrap_or_else(measured)

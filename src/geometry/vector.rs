@@ -73,6 +73,15 @@ pub(crate) fn norm<const D: usize>(a: [f64; D]) -> f64 {
     largest * squared_norm(a.map(|x| x / largest)).sqrt()
 }
 
+/// Returns the nearest integer, of two the even one, if the number is below 2⁵¹; else about the number.
+/// Unlike `libm::rint`, this is two additions.
+#[inline(always)]
+pub(crate) fn rounded(x: f64) -> f64 {
+    // From 2⁵² on, all numbers are integers.
+    const INTEGERS: f64 = (3u64 << 51) as f64;
+    (x + INTEGERS) - INTEGERS
+}
+
 /// Returns the cross product.
 #[inline(always)]
 pub(crate) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {

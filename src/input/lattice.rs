@@ -127,6 +127,35 @@ impl<const D: usize> Lattice<D> {
         if is_narrow { narrow } else { narrow.widened() }
     }
 
+    /// Returns the lattice of `points` with these weights, all of which have been checked, computed by `threads`: a
+    /// narrow one only if it rounds no weight either.
+    ///
+    /// # Errors
+    ///
+    /// Returns [`Error::NotFinite`] with the first point that has a coordinate that is not finite.
+    pub(crate) fn fit_weighted(threads: Threads, points: Points<'_, D>, weights: &[f64]) -> Result<Self, Error> {
+        let lattice = Lattice::fit_by(threads, points)?;
+        let is_exact = |&w: &f64| lattice.weight(w, 2 * Width::Narrow.bits()).is_some();
+        let is_wide = lattice.width == Width::Narrow && !weights.iter().all(is_exact);
+        Ok(if is_wide { lattice.widened() } else { lattice })
+    }
+
+    /// Returns the lattice's integer for a weight, w·2²ᵏ, if it is one of at most so many bits. All axes must have the
+    /// same *k*.
+    pub(crate) fn weight(&self, w: f64, bits: u32) -> Option<i128> {
+        let (mantissa, e) = decompose(w);
+        if mantissa == 0 {
+            return Some(0);
+        }
+        // The mantissa is odd.
+        let shift = e + 2 * self.exponent();
+        let length = shift + (u64::BITS - mantissa.leading_zeros()) as i32;
+        (shift >= 0 && length <= bits as i32).then(|| {
+            let magnitude = i128::from(mantissa) << shift;
+            if w < 0.0 { -magnitude } else { magnitude }
+        })
+    }
+
     /// Returns the wide lattice of the same points.
     pub(crate) fn widened(&self) -> Self {
         Lattice::of_bounds(Width::Wide, self.bounds)

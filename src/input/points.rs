@@ -139,6 +139,47 @@ impl<'a, const D: usize> Points<'a, D> {
         })
     }
 
+    /// Returns the factors that give each axis the same weight: those that scale the extents to 1, and 1
+    /// where there is no extent. They are for [`scaled`](Self::scaled).
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// // Metres and seconds.
+    /// let points = gdel::Points::F64(&[[0.0, 100.0], [4.0, 100.5], [8.0, 100.25]]);
+    /// assert_eq!(points.unit_factors(), [0.125, 2.0]);
+    /// ```
+    pub fn unit_factors(&self) -> [f64; D] {
+        let [low, high] = self.bounds().unwrap_or([[0.0; D]; 2]);
+        std::array::from_fn(|axis| {
+            let extent = high[axis] - low[axis];
+            if extent > 0.0 { 1.0 / extent } else { 1.0 }
+        })
+    }
+
+    /// Returns the points with each coordinate times the factor of its axis, rounded. What is nearest, and
+    /// so the triangulation, depends on how axes of different units compare: triangulate scaled points, and
+    /// scale queries by the same factors.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use gdel::{Interpolation, Interpolator, Locator, Points};
+    ///
+    /// let points = Points::F64(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1e6], [1.0, 1e6]]);
+    /// let factors = points.unit_factors();
+    /// let scaled = points.scaled(factors);
+    /// let mesh = gdel::delaunay2d(&scaled)?;
+    /// let locator = Locator::new(&mesh, &scaled)?;
+    /// let interpolator = Interpolator::new(&locator, &[0.0, 1.0, 2.0, 3.0])?;
+    /// let queries = Points::F64(&[[0.5, 5e5]]).scaled(factors);
+    /// assert_eq!(interpolator.interpolate_many(Interpolation::Linear, &queries)?.values, [1.5]);
+    /// # Ok::<(), gdel::Error>(())
+    /// ```
+    pub fn scaled(&self, factors: [f64; D]) -> Vec<[f64; D]> {
+        self.iter().map(|p| std::array::from_fn(|axis| p[axis] * factors[axis])).collect()
+    }
+
     /// Returns the lowest and the highest corner of the smallest box that contains all points, as
     /// [`bounds`](Self::bounds) does, by `threads`; infinite ones the other way round if there are
     /// no points.

@@ -152,6 +152,16 @@ pub fn orient3d_wide(a: Point, b: Point, c: Point, d: Point) -> Sign {
 #[inline]
 pub fn insphere_wide(a: Point, b: Point, c: Point, d: Point, e: Point) -> Sign {
     let (a, b, c, d) = (minus(a, e), minus(b, e), minus(c, e), minus(d, e));
+    let (bcd, cda, dab, abc) = minors3_wide([a, b, c, d]);
+    // Straight text: with the lifts inside a loop, the compiler keeps the loops, which takes a
+    // fifth more instructions.
+    let [a, b, c, d] = [(bcd, a), (cda, b), (dab, c), (abc, d)].map(|(m, p)| column_product(m, lift_wide(p)));
+    sign_of_columns(std::array::from_fn(|i| a[i] - b[i] + c[i] - d[i]))
+}
+
+/// Returns the minors of three differences: without the first, the second, the third, and the last.
+#[inline(always)]
+fn minors3_wide([a, b, c, d]: [Point; 4]) -> (I192, I192, I192, I192) {
     let minor = |p: Point, q: Point| minor_wide(p, q, 0, 1);
     let (ab, bc, cd, da) = (minor(a, b), minor(b, c), minor(c, d), minor(d, a));
     let (ac, bd) = (minor(a, c), minor(b, d));
@@ -159,10 +169,37 @@ pub fn insphere_wide(a: Point, b: Point, c: Point, d: Point, e: Point) -> Sign {
     let bcd = I192::sum([(cd, b[2]), (bd, -c[2]), (bc, d[2])]);
     let cda = I192::sum([(da, c[2]), (ac, d[2]), (cd, a[2])]);
     let dab = I192::sum([(ab, d[2]), (bd, a[2]), (da, b[2])]);
-    // Straight text: with the lifts inside a loop, the compiler keeps the loops, which takes a
-    // fifth more instructions.
-    let [a, b, c, d] = [(bcd, a), (cda, b), (dab, c), (abc, d)].map(|(m, p)| column_product(m, lift_wide(p)));
-    sign_of_columns(std::array::from_fn(|i| a[i] - b[i] + c[i] - d[i]))
+    (bcd, cda, dab, abc)
+}
+
+/// Returns the sign of the in-circle determinant of weighted points: positive if the last one is below the lifted
+/// triangle of the others, which turn counter-clockwise, for coordinates 0 ≤ q < 2⁶² and weights |w| < 2¹²⁵.
+pub fn power2d([a, b, c, d]: [[i64; 2]; 4], [wa, wb, wc, wd]: [i128; 4]) -> Sign {
+    let (a, b, c) = (minus(a, d), minus(b, d), minus(c, d));
+    let minor = |p: [i64; 2], q: [i64; 2]| {
+        let value = minor_wide(p, q, 0, 1);
+        I192 { high: value >> 64, low: value as u64 }
+    };
+    let lift = |p: [i64; 2], w: i128| lift_wide(p) as i128 - (w - wd);
+    sign_of_products([(minor(b, c), lift(a, wa)), (minor(c, a), lift(b, wb)), (minor(a, b), lift(c, wc))])
+}
+
+/// Returns the sign of the in-sphere determinant of weighted points: positive if the last one is below the lifted
+/// tetrahedron of the others, which is positively oriented, for coordinates 0 ≤ q < 2⁶² and weights |w| < 2¹²⁵.
+pub fn power3d([a, b, c, d, e]: [Point; 5], [wa, wb, wc, wd, we]: [i128; 5]) -> Sign {
+    let (a, b, c, d) = (minus(a, e), minus(b, e), minus(c, e), minus(d, e));
+    let (bcd, cda, dab, abc) = minors3_wide([a, b, c, d]);
+    let lift = |p: Point, w: i128| lift_wide(p) as i128 - (w - we);
+    sign_of_products([(bcd, lift(a, wa)), (cda, -lift(b, wb)), (dab, lift(c, wc)), (abc, -lift(d, wd))])
+}
+
+/// Returns the sign of Σ mᵢ·lᵢ for |lᵢ| < 2¹²⁷ and minors of three differences of 62 bits.
+fn sign_of_products<const N: usize>(terms: [(I192, i128); N]) -> Sign {
+    let columns = terms.map(|(m, l)| {
+        let columns = column_product(m, l.unsigned_abs());
+        if l < 0 { columns.map(|column| -column) } else { columns }
+    });
+    sign_of_columns(std::array::from_fn(|i| columns.iter().map(|column| column[i]).sum()))
 }
 
 /// Returns the sign of the in-circle determinant of points whose coordinates on axis *k* have been

@@ -21,7 +21,7 @@
 //!    with the point. Then that simplex exists, by (1): every word of the slot with a finite vertex
 //!    was written by a thread that had claimed this vertex before, so the newest of them is seen,
 //!    and a thread that had removed the simplex since would have had to claim the same vertices.
-//!    A slot that has not been written to has equal vertices.
+//!    A slot that has not been written to has equal vertices, and so has one that is given back in 2D.
 
 use crate::error::Error;
 use crate::slots::{MarkedSlots, Places, Slots};
@@ -305,6 +305,10 @@ impl<const N: usize> Slots<N> for Worker<'_, N> {
         }
         is_mine
     }
+
+    fn discard(&mut self, t: u32) {
+        self.unused.push(t);
+    }
 }
 
 impl<'a, const N: usize> MarkedSlots<N> for Worker<'a, N> {
@@ -324,10 +328,6 @@ impl<'a, const N: usize> MarkedSlots<N> for Worker<'a, N> {
     fn first_and(&self, t: u32, k: usize) -> [u32; 2] {
         let words = &self.simplices[t as usize];
         [0, k % N].map(|k| words[k].load(Relaxed))
-    }
-
-    fn discard(&mut self, t: u32) {
-        self.unused.push(t);
     }
 
     fn places(&self) -> SharedPlaces<'a> {

@@ -60,7 +60,7 @@ with_fields! {
         pub bytes_read: u64,
         /// The number of kernels that were run.
         pub dispatches: u64,
-        /// The number of submissions to the queue.
+        /// The number of submissions to the queue. One that is split, because the device takes long for it, counts once.
         pub submits: u64,
         /// The largest amount of GPU memory that was held at a time, in bytes.
         pub bytes: u64,

@@ -58,6 +58,9 @@ with_fields! {
         /// [`insert`](crate::Triangulator::insert) or [`remove`](crate::Triangulator::remove) did, if
         /// that made the mesh.
         pub update: Option<UpdateStats>,
+        /// How many meshes of the GPU, if it was considered, have failed a check so far, each of which was an error or
+        /// left to the CPU; earlier processes are included where they have kept that.
+        pub wrong_meshes: u64,
         /// The intermediate triangulations, if [`Triangulator::trace`](crate::Triangulator::trace)
         /// requested them.
         #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
@@ -76,6 +79,7 @@ impl Stats {
             gpu: None,
             splay: None,
             update: None,
+            wrong_meshes: 0,
             trace: None,
         }
     }
@@ -210,6 +214,9 @@ pub enum Fallback {
     /// The points of a 2D input are collinear, or so nearly collinear that the lattice cannot tell.
     #[error("the points are collinear, or nearly")]
     Collinear,
+    /// The points are weighted, and only the CPU takes weights.
+    #[error("the points are weighted, which only the CPU takes")]
+    Weights,
     /// Flipping took more work than the CPU backend needs for the whole input.
     #[error("flipping took too much work")]
     Flips,
@@ -236,6 +243,7 @@ impl Fallback {
             Fallback::GpuFailed(_) => "gpu-failed",
             Fallback::Coplanar => "coplanar",
             Fallback::Collinear => "collinear",
+            Fallback::Weights => "weights",
             Fallback::Flips => "flips",
             Fallback::Folded => "folded",
             Fallback::Splaying => "splaying",

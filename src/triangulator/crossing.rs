@@ -94,6 +94,8 @@ pub struct Crossing {
     compiling: f64,
     /// Whether the device has passed its test.
     is_proven: bool,
+    /// How many of its meshes have failed a check.
+    wrong_meshes: u32,
     /// Whether what runs take is noted.
     pub(super) learns: bool,
     /// Under which name it is kept for later processes, once the device is known.
@@ -110,6 +112,7 @@ impl Crossing {
             gpu: Times::new(gpu),
             compiling,
             is_proven: false,
+            wrong_meshes: 0,
             learns: true,
             name: None,
         }
@@ -144,6 +147,18 @@ impl Crossing {
         self.keep();
     }
 
+    /// Notes that a mesh has failed a check: the device has to pass its test again before it is used by a later process.
+    pub(super) fn note_wrong(&mut self) {
+        self.is_proven = false;
+        self.wrong_meshes = self.wrong_meshes.saturating_add(1);
+        self.keep();
+    }
+
+    /// Returns how many meshes have failed a check.
+    pub(super) fn wrong_meshes(&self) -> u64 {
+        self.wrong_meshes.into()
+    }
+
     /// Returns whether the device has passed its test, in this process or in an earlier one.
     pub(super) fn is_proven(&self) -> bool {
         self.is_proven
@@ -170,24 +185,26 @@ impl Crossing {
         [slower * self.cpu.estimate(points), self.gpu.estimate(points)]
     }
 
-    /// Returns what is to be kept: 0 or 1 for the test, the microseconds of compiling, and those of the fastest runs with their numbers of
-    /// points, which are 0 where nothing is known.
+    /// Returns what is to be kept: twice the number of wrong meshes, plus 1 if the test was passed; the microseconds of
+    /// compiling; and those of the fastest runs with their numbers of points, which are 0 where nothing is known.
     pub(super) fn to_words(&self) -> Vec<u32> {
         // Conversions saturate.
         let micros = |time: f64| (time * 1e3) as u32;
         let runs = self.cpu.fastest.iter().chain(&self.gpu.fastest);
         let runs = runs.flat_map(|run| run.map_or([0, 0], |(points, time)| [points as u32, micros(time)]));
-        [self.is_proven.into(), micros(self.compiling)].into_iter().chain(runs).collect()
+        let tested = self.wrong_meshes.min(u32::MAX / 2) * 2 + u32::from(self.is_proven);
+        [tested, micros(self.compiling)].into_iter().chain(runs).collect()
     }
 
     /// Takes over what was kept. What this process has measured stays if it is less.
     pub(super) fn merge(&mut self, words: &[u32]) {
-        let Some((&[is_proven, compiling], runs)) = words.split_first_chunk() else { return };
+        let Some((&[tested, compiling], runs)) = words.split_first_chunk() else { return };
         let (runs, []) = runs.as_chunks() else { return };
         if runs.len() != 2 * SIZES {
             return;
         }
-        self.is_proven |= is_proven == 1;
+        self.is_proven |= tested % 2 == 1;
+        self.wrong_meshes = self.wrong_meshes.max(tested / 2);
         self.compiling = f64::from(compiling) / 1e3;
         for (i, &[points, time]) in runs.iter().enumerate() {
             let times = if i < SIZES { &mut self.cpu } else { &mut self.gpu };
@@ -286,10 +303,14 @@ mod tests {
         crossing.note_cpu(5_000, 12.5);
         crossing.note_gpu(1_000_000, 43.25);
         crossing.note_compiling(74.0);
+        crossing.prove();
+        crossing.note_wrong();
+        crossing.note_wrong();
         let words = crossing.to_words();
         let mut other = self::crossing();
         other.merge(&words);
         assert_eq!(other.to_words(), words);
+        assert_eq!((other.is_proven(), other.wrong_meshes()), (false, 2));
         assert_eq!(other.estimates(5_000, None)[0], 12.5);
         // What another version has kept is ignored.
         other.merge(&[1, 2, 3]);

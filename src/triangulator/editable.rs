@@ -10,7 +10,7 @@ use crate::{
     dimension::Dimension,
     error::Error,
     input::points::Points,
-    mesh::{MeshInfo, sealed::Sealed},
+    mesh::{Mesh, MeshInfo, sealed::Sealed},
     stats::{Restart, UpdateStats},
     triangulator::{Choice, Triangulator},
 };
@@ -55,6 +55,11 @@ pub trait Editable<const D: usize>: Sealed + Sized {
     async fn edit(&mut self, triangulator: &Triangulator, points: Points<'_, D>, removed: &[u32]) -> Result<(), Error>;
 }
 
+/// Checks that a mesh is a Delaunay triangulation.
+fn check_unweighted<const D: usize, const N: usize>(mesh: &impl Mesh<D, N>) -> Result<(), Error> {
+    if mesh.weights().is_empty() { Ok(()) } else { Err(Error::WeightedMesh) }
+}
+
 /// Checks that a mesh has as many points.
 pub(super) fn check_count<const D: usize>(mesh: &impl Editable<D>, points: usize) -> Result<(), Error> {
     match mesh.point_count() {
@@ -93,6 +98,7 @@ macro_rules! on_host {
 
             async fn update(&mut self, triangulator: &Triangulator, points: Points<'_, $D>) -> Result<(), Error> {
                 check_count(self, points.len())?;
+                check_unweighted(self)?;
                 let used = Used::of(points, &self.duplicate_of);
                 *self = from_scratch(triangulator, points, used, Restart::NotResident).await?;
                 Ok(())
@@ -104,6 +110,7 @@ macro_rules! on_host {
                 points: Points<'_, $D>,
                 removed: &[u32],
             ) -> Result<(), Error> {
+                check_unweighted(self)?;
                 let max_share = <Dimension<$D> as Edit<$D, $N>>::MAX_SHARE;
                 if let Some(again) = edit::<$D, $N>(self, points, removed, &triangulator.options, max_share)? {
                     *self = from_scratch(triangulator, points, again.used(points), again.why).await?;

@@ -40,7 +40,7 @@ impl Triangulator {
     /// # Errors
     ///
     /// Returns the errors of [`Triangulator::delaunay3d`], and [`Error::PointCount`] if the mesh is
-    /// not one of as many points. After an error the mesh is what it was before.
+    /// not one of as many points, and [`Error::WeightedMesh`] if the points are weighted. After an error the mesh is what it was before.
     pub fn update<'a, const D: usize, M: Editable<D>>(
         &self,
         mesh: &mut M,
@@ -93,7 +93,7 @@ impl Triangulator {
     /// # Errors
     ///
     /// Returns the errors of [`Triangulator::delaunay3d`], and [`Error::PointCount`] if the mesh is not
-    /// one of as many `points`. After an error the mesh and `points` are what they were before.
+    /// one of as many `points`, and [`Error::WeightedMesh`] if the points are weighted. After an error the mesh and `points` are what they were before.
     pub fn insert<const D: usize, T: Copy, M: Editable<D>>(
         &self,
         mesh: &mut M,
@@ -162,7 +162,7 @@ impl Triangulator {
     ///
     /// Returns the errors of [`Triangulator::delaunay3d`], [`Error::PointCount`] if the mesh is not
     /// one of as many points, and [`Error::BadIndex`] if an index is not below their number, is given
-    /// twice, or was removed before. After an error the mesh is what it was before.
+    /// twice, or was removed before; [`Error::WeightedMesh`] if the points are weighted. After an error the mesh is what it was before.
     pub fn remove<'a, const D: usize, M: Editable<D>>(
         &self,
         mesh: &mut M,

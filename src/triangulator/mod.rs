@@ -8,6 +8,7 @@ mod editable;
 mod edits;
 #[cfg(not(feature = "gpu"))]
 mod no_device;
+mod regular;
 #[cfg(feature = "gpu")]
 mod shared_device;
 #[cfg(feature = "gpu")]

@@ -23,7 +23,10 @@ use crate::{
     },
 };
 use async_lock::Mutex;
-use std::{num::NonZeroUsize, sync::Arc};
+use std::{
+    num::NonZeroUsize,
+    sync::{Arc, atomic::Ordering},
+};
 
 #[cfg(target_arch = "wasm32")]
 mod web;
@@ -262,7 +265,8 @@ impl SharedDevice {
                     Err(why) => why,
                 };
                 let mut mesh = self.by_cpu(points, options)?;
-                mesh.stats_mut().fallback = Some(why);
+                let stats = mesh.stats_mut();
+                (stats.fallback, stats.wrong_meshes) = (Some(why), self.setup.known.of::<D>().wrong_meshes());
                 to.deliver(MadeMesh::Host(mesh), None).await
             }
         }
@@ -294,6 +298,7 @@ impl SharedDevice {
     {
         let began = Instant::now();
         let mesh = cpu::delaunay(points, options)?;
+        self.setup.cpu_runs.fetch_add(1, Ordering::Relaxed);
         if options.threads.is_none() {
             self.setup.known.of::<D>().note_cpu(points.len(), millis(began));
         }
@@ -317,6 +322,7 @@ impl SharedDevice {
         let options = &options.monotone();
         let result = async {
             let mut mesh = engine.make(points, options, to.destination()).await?;
+            mesh.stats_mut().wrong_meshes = self.setup.known.of::<D>().wrong_meshes();
             let Stats { fallback, update, trace, .. } = mesh.stats_mut();
             let is_usual = fallback.is_none() && update.is_none() && trace.is_none();
             let delivered = to.deliver(mesh, Some(engine.gpu().clone())).await?;
@@ -327,7 +333,7 @@ impl SharedDevice {
             Ok(delivered)
         };
         let result = result.await;
-        state.forget_if_lost(&result);
+        state.note_failure::<D, _>(&self.setup, &result);
         result
     }
 }

@@ -14,9 +14,11 @@ use std::cmp::Ordering;
 pub(crate) struct Input<const D: usize> {
     /// The exact coordinates, duplicates included.
     pub(crate) points: Vec<[f64; D]>,
-    /// For each point the lowest index with the same coordinates; [`NONE`] for points that are
-    /// unused.
-    representative: Vec<u32>,
+    /// One per point, or none.
+    pub(crate) weights: Vec<f64>,
+    /// For each point the lowest index with the same coordinates, of the heaviest ones; [`NONE`] for
+    /// points that are unused.
+    pub(super) representative: Vec<u32>,
     /// The number of points without duplicates and unused ones.
     pub(crate) distinct: usize,
     /// The affine dimension, 0 to D.
@@ -28,10 +30,18 @@ impl<const D: usize> Input<D> {
     /// own duplicates; `affine_dimension` computes their dimension.
     pub(crate) fn new(
         points: Points<'_, D>,
+        weights: Option<&[f64]>,
         duplicate_of: Option<&[u32]>,
         affine_dimension: fn(&[[f64; D]]) -> u8,
     ) -> Result<Self, Error> {
         points.validate_by(Threads::All)?;
+        let weights = weights.unwrap_or_default().to_vec();
+        if !weights.is_empty() && weights.len() != points.len() {
+            return Err(Error::ValueCount { values: weights.len(), points: points.len() });
+        }
+        if let Some(index) = weights.iter().position(|w| !w.is_finite()) {
+            return Err(Error::BadWeight { index });
+        }
         let limit = i32::MAX as usize;
         if points.len() > limit {
             return Err(Error::TooManyPoints { points: points.len(), limit });
@@ -46,9 +56,9 @@ impl<const D: usize> Input<D> {
         } else {
             affine_dimension(&used.iter().map(|&i| points[i as usize]).collect::<Vec<_>>())
         };
-        let representative = representatives(&points, used);
+        let representative = representatives(&points, &weights, used);
         let distinct = (0u32..).zip(&representative).filter(|&(i, &r)| r == i).count();
-        Ok(Input { points, representative, distinct, dimension })
+        Ok(Input { points, weights, representative, distinct, dimension })
     }
 
     /// Begins the report on a mesh that states this dimension and these duplicates.
@@ -121,7 +131,7 @@ impl<const D: usize> Input<D> {
                 }
             }
         }
-        if usize::from(self.dimension) == D {
+        if usize::from(self.dimension) == D && self.weights.is_empty() {
             for (i, used) in used.into_iter().enumerate() {
                 if !used && self.representative[i] as usize == i {
                     findings.add(|| Defect::at_point(i, format!("not a vertex of any {what}")));
@@ -145,16 +155,22 @@ fn compare<const D: usize>(a: &[f64; D], b: &[f64; D]) -> Ordering {
     a.iter().zip(b).map(|(x, y)| x.total_cmp(y)).find(|&order| order != Ordering::Equal).unwrap_or(Ordering::Equal)
 }
 
-/// Returns for each point the lowest index with the same coordinates among those in `order`;
-/// [`NONE`] for those that are not.
-fn representatives<const D: usize>(points: &[[f64; D]], mut order: Vec<u32>) -> Vec<u32> {
+/// Returns for each point the lowest index with the same coordinates among those in `order`, of the
+/// heaviest ones; [`NONE`] for those that are not.
+fn representatives<const D: usize>(points: &[[f64; D]], weights: &[f64], mut order: Vec<u32>) -> Vec<u32> {
     let coordinates = |i: u32| points[i as usize];
     let by_place = |&i: &u32, &j: &u32| compare(&coordinates(i), &coordinates(j)).then(i.cmp(&j));
     parallel::sort_by(Threads::All, &mut order, by_place);
     let mut representative = vec![NONE; points.len()];
     for equal in order.chunk_by(|&i, &j| coordinates(i) == coordinates(j)) {
+        let mut heaviest = equal[0];
         for &i in equal {
-            representative[i as usize] = equal[0];
+            if weights.get(i as usize) > weights.get(heaviest as usize) {
+                heaviest = i;
+            }
+        }
+        for &i in equal {
+            representative[i as usize] = heaviest;
         }
     }
     representative

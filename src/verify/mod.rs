@@ -15,10 +15,15 @@
 //! 4. A triangulation of the convex hull that is locally Delaunay across every facet is a Delaunay
 //!    triangulation, and one that is so for perturbed heights is the only one.
 //!
+//! With weights, which make it the regular triangulation, a point may be no vertex instead of (3), and in (4) lifted
+//! simplices take the place of circumspheres. A point that is no vertex lies in a simplex, and above it when both are
+//! lifted: then it is above the lower side of the lifted points' hull, and the vertices alone are on that.
+//!
 //! 2D is simpler. Triangles that are all oriented alike and meet across edges from either side
 //! cover a point as often as their boundary winds around it: once inside, if that is a convex
 //! polygon that turns once.
 
+pub(crate) mod hidden;
 pub(crate) mod input;
 pub(crate) mod report;
 

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// A property of the Delaunay triangulation that the verifier decides.
+/// A property of the Delaunay or regular triangulation that the verifier decides.
 ///
 /// Together they are sufficient: a mesh that passes all of them *is* the triangulation that
 /// [`delaunay3d`](crate::delaunay3d) defines. In 2D, tetrahedra are triangles, facets are edges,
@@ -31,7 +31,8 @@ pub enum Check {
     /// Every tetrahedron has four different vertices that are indices of points.
     Indices,
     /// The vertices are the distinct points, all of them where the points span three dimensions,
-    /// and each is named by the lowest index of its coordinates.
+    /// and each is named by the lowest index of its coordinates. With weights, not all need to be
+    /// vertices, and the heaviest of equal points names them.
     Vertices,
     /// Every tetrahedron is positively oriented; none is flat.
     Orientation,
@@ -40,9 +41,10 @@ pub enum Check {
     Facets,
     /// The neighbours that the mesh states are the tetrahedra across the facets.
     Neighbors,
-    /// No tetrahedron's circumsphere has the opposite vertex of a neighbour strictly inside.
+    /// No tetrahedron's circumsphere has the opposite vertex of a neighbour strictly inside. With
+    /// weights: no lifted tetrahedron has it strictly below.
     Delaunay,
-    /// Where the opposite vertex of a neighbour lies on the circumsphere, the symbolic perturbation
+    /// Where the opposite vertex of a neighbour lies on the circumsphere, or the lifted tetrahedron, the symbolic perturbation
     /// of the heights puts it outside.
     CanonicalTies,
     /// The hull triangles that the mesh states are the facets of a single tetrahedron, turned
@@ -57,11 +59,14 @@ pub enum Check {
     /// The tetrahedra cover the hull's inside once: all hull triangles are seen from one point
     /// inside, and no second tetrahedron contains that point.
     Covering,
+    /// The hidden points that the mesh states are the distinct ones that are no vertices, as weights allow,
+    /// and each of these lies above the lifted tetrahedron that contains it.
+    Hidden,
 }
 
 impl Check {
     /// Every check, in the order in which they run.
-    pub const ALL: [Check; 14] = [
+    pub const ALL: [Check; 15] = [
         Check::Dimension,
         Check::Duplicates,
         Check::Indices,
@@ -76,6 +81,7 @@ impl Check {
         Check::HullConvex,
         Check::EulerCharacteristic,
         Check::Covering,
+        Check::Hidden,
     ];
 
     /// Returns a short name, such as `hull-convex`.
@@ -95,6 +101,7 @@ impl Check {
             Check::HullConvex => "hull-convex",
             Check::EulerCharacteristic => "euler-characteristic",
             Check::Covering => "covering",
+            Check::Hidden => "hidden",
         }
     }
 
@@ -107,6 +114,8 @@ impl Check {
             Check::Delaunay | Check::CanonicalTies => &[Check::Orientation, Check::Facets],
             Check::HullConvex => &[Check::Orientation, Check::HullClosed],
             Check::Covering => &[Check::HullConvex, Check::EulerCharacteristic],
+            // In 3D, a mesh that does not cover its hull may lack the simplex around a point.
+            Check::Hidden => &[Check::Vertices, Check::HullConvex],
         }
     }
 }
@@ -311,7 +320,8 @@ pub struct Report {
 }
 
 impl Report {
-    /// Returns whether the mesh is the Delaunay triangulation of the points.
+    /// Returns whether the mesh is the Delaunay triangulation of the points, or the regular one of
+    /// weighted points.
     pub fn passed(&self) -> bool {
         self.outcomes.iter().all(|(_, outcome)| matches!(outcome, Outcome::Passed | Outcome::NotStated))
     }

@@ -19,7 +19,7 @@ use proptest::prelude::*;
 use std::collections::BTreeSet;
 
 /// The 2D checks; a polygon that is convex and turns once needs no others.
-const CHECKS: [Check; 12] = [
+const CHECKS: [Check; 13] = [
     Check::Dimension,
     Check::Duplicates,
     Check::Indices,
@@ -32,6 +32,7 @@ const CHECKS: [Check; 12] = [
     Check::Hull,
     Check::HullClosed,
     Check::HullConvex,
+    Check::Hidden,
 ];
 
 /// The corner of the unit square.
@@ -71,6 +72,18 @@ fn other_arrays(broken: &mut BrokenMeshes) {
     broken.changed(Check::Dimension, "dimension 1 of a square", &square, Mesh, |m| m.dimension = 1);
     broken.changed(Check::Dimension, "dimension 2 of a line", &line, Mesh, |m| m.dimension = 2);
     broken.changed(Check::Dimension, "dimension 3 of a square", &square, Mesh, |m| m.dimension = 3);
+
+    let hidden = Check::Hidden;
+    broken.changed(hidden, "hidden, though there are no weights", &square, Mesh, |m| m.hidden.push(1));
+    let within: Vec<_> = CORNER.into_iter().chain([[0.1, 0.1]]).collect();
+    broken.changed(hidden, "hidden, though below the triangle", &within, Triangle(0), |m| {
+        *m = right(&CORNER);
+        (m.weights, m.hidden, m.duplicate_of) = (vec![0.0; 4], vec![3], vec![NONE; 4]);
+    });
+    broken.changed(hidden, "hidden and not stated", &within, Mesh, |m| {
+        *m = right(&CORNER);
+        (m.weights, m.duplicate_of) = (vec![9.0, 9.0, 9.0, 0.0], vec![NONE; 4]);
+    });
 
     let duplicates = Check::Duplicates;
     broken.changed(duplicates, "duplicate not stated", &doubled, Point(9), |m| m.duplicate_of[9] = NONE);

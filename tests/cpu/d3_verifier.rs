@@ -58,6 +58,18 @@ fn other_arrays(broken: &mut BrokenMeshes) {
     broken.changed(Check::Dimension, "dimension 3 of a square", &flat, Mesh, |m| m.dimension = 3);
     broken.changed(Check::Dimension, "dimension 1 of nothing", &[], Mesh, |m| m.dimension = 1);
 
+    let hidden = Check::Hidden;
+    broken.changed(hidden, "hidden, though there are no weights", &cube, Mesh, |m| m.hidden.push(1));
+    let within: Vec<_> = CORNER.into_iter().chain([[0.1; 3]]).collect();
+    broken.changed(hidden, "hidden, though below the tetrahedron", &within, Tetrahedron(0), |m| {
+        *m = right(&CORNER);
+        (m.weights, m.hidden, m.duplicate_of) = (vec![0.0; 5], vec![4], vec![NONE; 5]);
+    });
+    broken.changed(hidden, "hidden and not stated", &within, Mesh, |m| {
+        *m = right(&CORNER);
+        (m.weights, m.duplicate_of) = (vec![9.0, 9.0, 9.0, 9.0, 0.0], vec![NONE; 5]);
+    });
+
     let duplicates = Check::Duplicates;
     broken.changed(duplicates, "duplicate not stated", &doubled, Point(8), |m| m.duplicate_of[8] = NONE);
     broken.changed(duplicates, "duplicate of another point", &doubled, Point(9), |m| m.duplicate_of[9] = 2);

@@ -21,5 +21,6 @@ mod inputs;
 mod meshes;
 mod moving;
 mod predicates;
+mod regular;
 mod threads;
 mod typescript;

@@ -186,3 +186,77 @@ pub fn definition2(points: &[[f64; 2]]) -> Definition2 {
     }
     Definition2 { triangles, duplicate_of, dimension }
 }
+
+/// The expected result of [`gdel::Triangulator::regular3d`] or `regular2d`.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Regular<const N: usize> {
+    /// The simplices in the form of `canonical`.
+    pub simplices: Vec<[u32; N]>,
+    /// See [`gdel::Mesh3::duplicate_of`].
+    pub duplicate_of: Vec<u32>,
+    /// See [`gdel::Mesh3::hidden`].
+    pub hidden: Vec<u32>,
+}
+
+/// Returns points and weights as integers: times a power of two, and times its square.
+fn weighted_integers<const D: usize>(points: &[[f64; D]], weights: &[f64]) -> (Vec<[BigInt; D]>, Vec<BigInt>) {
+    let mut points: Vec<[BigInt; D]> = points.iter().map(|p| p.map(integer)).collect();
+    // The coordinates have been multiplied by 2¹⁰⁷⁴.
+    let mut weights: Vec<BigInt> = weights.iter().map(|&w| integer(w) << 1074).collect();
+    let shift = points.as_flattened().iter().filter_map(BigInt::trailing_zeros).min().unwrap_or(0);
+    let shift = weights.iter().filter_map(BigInt::trailing_zeros).map(|zeros| zeros / 2).fold(shift, u64::min);
+    points.as_flattened_mut().iter_mut().for_each(|x| *x >>= shift);
+    weights.iter_mut().for_each(|w| *w >>= 2 * shift);
+    (points, weights)
+}
+
+/// Returns the result that the definition names, for about ten points, with `N` = `D` + 1.
+pub fn regular<const D: usize, const N: usize>(points: &[[f64; D]], weights: &[f64]) -> Regular<N> {
+    let (points, weights) = weighted_integers(points, weights);
+    // Of equal points, the heaviest; of equal weights, the first.
+    let stands_for = |i: usize| {
+        let equal = (0..points.len()).filter(|&j| points[j] == points[i]);
+        equal.max_by(|&j, &k| weights[j].cmp(&weights[k]).then(k.cmp(&j))).unwrap()
+    };
+    let duplicate_of: Vec<u32> =
+        (0..points.len()).map(|i| if stands_for(i) == i { gdel::NONE } else { stands_for(i) as u32 }).collect();
+    let distinct: Vec<u32> = (0..points.len() as u32).filter(|&i| duplicate_of[i as usize] == gdel::NONE).collect();
+    let point = |i: u32| &points[i as usize];
+    let lifted = |i: u32| height(point(i)) - &weights[i as usize];
+    // Positive if the last point is below the others, which are positively oriented.
+    let is_below = |all: &[u32]| {
+        let cofactors = cofactors(&all.iter().map(|&i| point(i)).collect::<Vec<_>>());
+        let value: BigInt = cofactors.iter().zip(all).map(|(cofactor, &i)| cofactor * lifted(i)).sum();
+        let by_index: BTreeMap<_, _> = all.iter().zip(&cofactors).collect();
+        let perturbed = by_index.into_values().map(sign);
+        std::iter::once(sign(&value)).chain(perturbed).find(|&s| s != 0).unwrap_or(0)
+    };
+    let mut simplices = Vec::new();
+    for simplex in combinations::<N>(&distinct) {
+        let orientation = sign(&orientation(&simplex.map(point)));
+        let is_above = |&i: &u32| {
+            let all = [&simplex[..], &[i]].concat();
+            simplex.contains(&i) || is_below(&all) * orientation < 0
+        };
+        if orientation != 0 && distinct.iter().all(is_above) {
+            simplices.push(simplex);
+        }
+    }
+    let is_hidden = |i: &u32| !simplices.is_empty() && !simplices.as_flattened().contains(i);
+    let hidden = distinct.iter().copied().filter(is_hidden).collect();
+    Regular { simplices, duplicate_of, hidden }
+}
+
+/// Returns all ascending lists of `N` of the items.
+fn combinations<const N: usize>(items: &[u32]) -> Vec<[u32; N]> {
+    let mut lists = vec![Vec::new()];
+    for _ in 0..N {
+        let longer = |list: &Vec<u32>| {
+            let list = list.clone();
+            let from = list.last().map_or(0, |last| items.iter().position(|i| i == last).unwrap() + 1);
+            items[from..].iter().map(move |&i| [&list[..], &[i]].concat()).collect::<Vec<_>>()
+        };
+        lists = lists.iter().flat_map(longer).collect();
+    }
+    lists.into_iter().map(|list| list.try_into().unwrap()).collect()
+}

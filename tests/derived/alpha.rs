@@ -122,8 +122,17 @@ impl Face {
 
 /// The filtration: the faces by their ascending vertices.
 struct Expected {
+    /// The simplices; or the triangles or edges of points in a plane or on a line.
+    cells: Vec<Vec<u32>>,
+    /// The cells across facets.
+    beside: Vec<Vec<usize>>,
     faces: BTreeMap<Vec<u32>, Face>,
     radii: Vec<Fraction>,
+}
+
+/// More than any radius.
+fn never() -> Fraction {
+    Fraction(BigInt::from(1) << 9100, BigInt::from(1))
 }
 
 fn faces_of(simplex: &[u32]) -> impl Iterator<Item = Vec<u32>> {
@@ -133,20 +142,38 @@ fn faces_of(simplex: &[u32]) -> impl Iterator<Item = Vec<u32>> {
         .map(move |mask| (0..sorted.len()).filter(|k| mask >> k & 1 == 1).map(|k| sorted[k]).collect())
 }
 
-fn expected<const D: usize, const N: usize>(mesh: &impl Mesh<D, N>, points: &[[f64; D]]) -> Expected {
+/// Returns a cell without one of its vertices, sorted.
+fn without(cell: &[u32], k: usize) -> Vec<u32> {
+    let mut facet: Vec<u32> = (0..cell.len()).filter(|&l| l != k).map(|l| cell[l]).collect();
+    facet.sort_unstable();
+    facet
+}
+
+fn expected<const D: usize>(cells: Vec<Vec<u32>>, duplicate_of: &[u32], points: &[[f64; D]]) -> Expected {
+    let is_full = cells.iter().all(|cell| cell.len() == D + 1);
     let exact: Vec<[BigInt; D]> = points.iter().map(|p| p.map(integer)).collect();
-    let vertices: Vec<usize> = (0..points.len()).filter(|&v| mesh.duplicate_of()[v] == gdel::NONE).collect();
+    let vertices: Vec<usize> = (0..points.len()).filter(|&v| duplicate_of[v] == gdel::NONE).collect();
     let sphere = |face: &[u32]| Sphere::new(face.iter().map(|&v| &exact[v as usize]).collect());
-    let radii: Vec<Fraction> = mesh.simplices().iter().map(|t| sphere(t).squared_radius()).collect();
+    let radii: Vec<Fraction> = cells.iter().map(|t| sphere(t).squared_radius()).collect();
+    let mut of_facets: BTreeMap<Vec<u32>, Vec<usize>> = BTreeMap::new();
+    for (t, cell) in cells.iter().enumerate() {
+        (0..cell.len()).for_each(|k| of_facets.entry(without(cell, k)).or_default().push(t));
+    }
     let mut around: BTreeMap<Vec<u32>, Vec<usize>> = BTreeMap::new();
     let mut on_hull = BTreeSet::new();
-    for (t, simplex) in mesh.simplices().iter().enumerate() {
-        for face in faces_of(simplex) {
+    let mut beside = vec![Vec::new(); cells.len()];
+    for (t, cell) in cells.iter().enumerate() {
+        for face in faces_of(cell) {
             around.entry(face).or_default().push(t);
         }
-        for k in (0..N).filter(|&k| mesh.opposites()[t][k] == gdel::NONE) {
-            let facet: Vec<u32> = (0..N).filter(|&l| l != k).map(|l| simplex[l]).collect();
-            on_hull.extend(faces_of(&facet));
+        if !is_full {
+            on_hull.extend(faces_of(cell));
+        }
+        for facet in (0..cell.len()).map(|k| without(cell, k)) {
+            beside[t].extend(of_facets[&facet].iter().filter(|&&other| other != t));
+            if of_facets[&facet].len() == 1 {
+                on_hull.extend(faces_of(&facet));
+            }
         }
     }
     // The largest faces first: the others need their values.
@@ -160,13 +187,14 @@ fn expected<const D: usize, const N: usize>(mesh: &impl Mesh<D, N>, points: &[[f
             Some(Fraction(BigInt::ZERO, BigInt::from(1)))
         } else {
             let sphere = sphere(&face);
-            let is_empty =
-                face.len() == N || !vertices.iter().any(|&v| !face.contains(&(v as u32)) && sphere.contains(&exact[v]));
+            let is_empty = face.len() == D + 1
+                || !vertices.iter().any(|&v| !face.contains(&(v as u32)) && sphere.contains(&exact[v]));
             is_empty.then(|| sphere.squared_radius())
         };
         let greatest = || around[&face].iter().map(|&t| &radii[t]).max_by(|a, b| a.compare(b)).unwrap().clone();
         let interior = (!on_hull.contains(&face)).then(greatest);
-        let regular_here = regular.remove(&face).or(own.clone()).unwrap();
+        let largest = || if is_full { own.clone() } else { Some(never()) };
+        let regular_here = regular.remove(&face).or_else(largest).unwrap();
         let face_here = Face { own, regular: regular_here, interior };
         for left_out in 0..face.len() {
             let below: Vec<u32> = (0..face.len()).filter(|&k| k != left_out).map(|k| face[k]).collect();
@@ -177,7 +205,7 @@ fn expected<const D: usize, const N: usize>(mesh: &impl Mesh<D, N>, points: &[[f
         }
         faces.insert(face, face_here);
     }
-    Expected { faces, radii }
+    Expected { cells, beside, faces, radii }
 }
 
 fn near(found: f64, expected: f64) -> bool {
@@ -224,8 +252,8 @@ impl Expected {
     }
 }
 
-/// Components of simplices across facets, by search.
-fn count_components<const D: usize, const N: usize>(mesh: &impl Mesh<D, N>, is_solid: &[bool]) -> usize {
+/// Components of cells across facets, by search.
+fn count_components(beside: &[Vec<usize>], is_solid: &[bool]) -> usize {
     let mut seen = vec![false; is_solid.len()];
     let mut count = 0;
     for start in 0..is_solid.len() {
@@ -236,9 +264,9 @@ fn count_components<const D: usize, const N: usize>(mesh: &impl Mesh<D, N>, is_s
         let mut pending = vec![start];
         seen[start] = true;
         while let Some(t) = pending.pop() {
-            for &across in mesh.opposites()[t].iter().filter(|&&across| across != gdel::NONE) {
-                if is_solid[across as usize] && !std::mem::replace(&mut seen[across as usize], true) {
-                    pending.push(across as usize);
+            for &across in &beside[t] {
+                if is_solid[across] && !std::mem::replace(&mut seen[across], true) {
+                    pending.push(across);
                 }
             }
         }
@@ -282,6 +310,24 @@ where
 /// The edges of a 3D mesh, which in 2D are facets.
 type EdgesOf<'f, S> = &'f dyn Fn(&S, f64) -> Vec<(Vec<u32>, Interval, FaceClass)>;
 
+/// The simplices; or the triangles or edges of points in a plane or on a line.
+fn cells_of<const D: usize, const N: usize>(
+    mesh: &impl Mesh<D, N>,
+    shape: &AlphaShape<D, N>,
+    edges_of: EdgesOf<'_, AlphaShape<D, N>>,
+) -> Vec<Vec<u32>>
+where
+    Euclidean: AlphaEdges<D, N>,
+{
+    if !mesh.simplices().is_empty() {
+        return mesh.simplices().iter().map(|simplex| simplex.to_vec()).collect();
+    }
+    match shape.facets().map(|(facet, _)| facet.to_vec()).collect::<Vec<_>>() {
+        facets if facets.is_empty() => edges_of(shape, 1.0).into_iter().map(|(edge, ..)| edge).collect(),
+        facets => facets,
+    }
+}
+
 fn check<'m, const D: usize, const N: usize, M: Mesh<D, N>>(
     name: &str,
     mesh: &'m M,
@@ -291,13 +337,16 @@ fn check<'m, const D: usize, const N: usize, M: Mesh<D, N>>(
     Euclidean: AlphaEdges<D, N>,
 {
     let shape = AlphaShape::new(mesh, Points::F64(points)).unwrap();
-    let expected = expected(mesh, points);
+    let is_flat = mesh.simplices().is_empty();
+    let expected = expected(cells_of(mesh, &shape, edges_of), mesh.duplicate_of(), points);
     for (t, radius) in shape.simplices().enumerate() {
         assert!(near(radius, expected.radii[t].root()), "{name}: {radius}");
     }
     let mut facets: Vec<[u32; D]> = shape.facets().map(|(facet, _)| facet).collect();
     facets.sort_unstable();
-    assert_eq!(facets, facets_of(mesh), "{name}: as they are in the simplices with the lower indices");
+    if !is_flat {
+        assert_eq!(facets, facets_of(mesh), "{name}: as they are in the simplices with the lower indices");
+    }
     let mut count = shape.simplices().len();
     for (facet, interval) in shape.facets() {
         count += 1;
@@ -308,7 +357,7 @@ fn check<'m, const D: usize, const N: usize, M: Mesh<D, N>>(
         expected.check_interval(name, &edge, interval);
     }
     for (v, interval) in shape.vertices() {
-        if !mesh.simplices().is_empty() {
+        if !expected.cells.is_empty() {
             count += 1;
             expected.check_interval(name, &[v], interval);
         }
@@ -338,12 +387,12 @@ fn check<'m, const D: usize, const N: usize, M: Mesh<D, N>>(
         let squared =
             if alpha.is_infinite() { largest() } else { Fraction(integer(alpha) * integer(alpha), BigInt::from(1)) };
         let is_solid: Vec<bool> = expected.radii.iter().map(|radius| radius.compare(&squared).is_le()).collect();
-        let solid: Vec<usize> = (0..is_solid.len()).filter(|&t| is_solid[t]).collect();
+        let solid: Vec<usize> = (0..is_solid.len()).filter(|&t| is_solid[t] && !is_flat).collect();
         assert_eq!(complex.solid().collect::<Vec<_>>(), solid, "{name} {alpha}");
         let surface: Vec<_> = complex.surface().collect();
         assert_closed(name, &surface);
         let (labels, components) = complex.components();
-        assert_eq!(components, count_components(mesh, &is_solid), "{name} {alpha}");
+        assert_eq!(components, count_components(&expected.beside, &is_solid), "{name} {alpha}");
         assert!(labels.iter().zip(&is_solid).all(|(&label, &is_solid)| (label != gdel::NONE) == is_solid));
         let mut next = 0;
         for label in labels.into_iter().filter(|&label| label != gdel::NONE) {
@@ -357,7 +406,7 @@ fn check<'m, const D: usize, const N: usize, M: Mesh<D, N>>(
             assert_eq!(class, expected.class(&edge, &squared), "{name} {alpha} {edge:?}");
         }
         for (v, class) in complex.vertices() {
-            if mesh.simplices().is_empty() {
+            if expected.cells.is_empty() {
                 assert_eq!(class, FaceClass::Singular, "{name}");
             } else {
                 assert_eq!(class, expected.class(&[v], &squared), "{name} {alpha} {v}");
@@ -365,7 +414,7 @@ fn check<'m, const D: usize, const N: usize, M: Mesh<D, N>>(
         }
     }
 
-    check_smallest(name, mesh, &shape, &expected.radii);
+    check_smallest(name, mesh, &shape, &expected);
 }
 
 /// Checks the smallest alpha with all vertices and so many components.
@@ -373,7 +422,7 @@ fn check_smallest<const D: usize, const N: usize>(
     name: &str,
     mesh: &impl Mesh<D, N>,
     shape: &AlphaShape<D, N>,
-    radii: &[Fraction],
+    Expected { cells, beside, radii, .. }: &Expected,
 ) where
     Euclidean: AlphaEdges<D, N>,
 {
@@ -383,10 +432,10 @@ fn check_smallest<const D: usize, const N: usize>(
         let best = sorted.iter().find(|&radius| {
             let is_solid: Vec<bool> = radii.iter().map(|other| other.compare(radius).is_le()).collect();
             let mut is_covered: Vec<bool> = mesh.duplicate_of().iter().map(|&d| d != gdel::NONE).collect();
-            for (simplex, _) in mesh.simplices().iter().zip(&is_solid).filter(|(_, is_solid)| **is_solid) {
+            for (simplex, _) in cells.iter().zip(&is_solid).filter(|(_, is_solid)| **is_solid) {
                 simplex.iter().for_each(|&v| is_covered[v as usize] = true);
             }
-            is_covered.iter().all(|&is_covered| is_covered) && count_components(mesh, &is_solid) <= components
+            is_covered.iter().all(|&is_covered| is_covered) && count_components(beside, &is_solid) <= components
         });
         let found = shape.find_alpha(components);
         assert_eq!(found.is_some(), best.is_some(), "{name} {components}");
@@ -445,7 +494,13 @@ fn radii_that_differ_in_their_last_bits_are_told_apart() {
             Fraction(numerator << (2 * zeros), denominator)
         };
         let radii: Vec<Fraction> = mesh.tetrahedra.iter().map(squared_radius).collect();
-        check_smallest(name, &mesh, &shape, &radii);
+        let cells = mesh.tetrahedra.iter().map(|cell| cell.to_vec()).collect();
+        let beside = mesh
+            .neighbors
+            .iter()
+            .map(|across| across.iter().filter(|&&t| t != gdel::NONE).map(|&t| t as usize).collect());
+        let expected = Expected { cells, beside: beside.collect(), faces: BTreeMap::new(), radii };
+        check_smallest(name, &mesh, &shape, &expected);
     }
 }
 

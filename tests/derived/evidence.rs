@@ -138,6 +138,31 @@ fn a_cap_of_a_sphere_comes_out_as_the_cap() {
 }
 
 #[test]
+fn points_far_away_leave_terrain_and_walls_open() {
+    let up = [0.0, 0.0, 1.0];
+    for (name, points, middle, size, up) in [
+        ("terrain", hills(6000), [5.0, 5.0, 0.0], 10.0, Some(up)),
+        ("terrain whose side is unknown", hills(6000), [5.0, 5.0, 0.0], 10.0, None),
+        ("wall", view(80), [0.0, 0.0, 2.5], 3.0, None),
+    ] {
+        let mut options = auto();
+        options.up = up;
+        let expected = found(&points, &options).area();
+        // A few that are many times farther away than the scan is large, and one of a hundred around it.
+        for (count, reach) in [(1, 5.0), (4, 5.0), (20, 3.0), (60, 1.5)] {
+            let far = random(count, 9).into_iter();
+            let far = far.map(|p| std::array::from_fn(|axis| middle[axis] + 2.0 * reach * size * (p[axis] - 0.5)));
+            let points: Vec<[f64; 3]> = points.iter().copied().chain(far).collect();
+            let surface = found(&points, &options);
+            println!("{name}, {count}: {} dropped, {} of {expected}", surface.isolated(), surface.area());
+            assert!(!surface.is_closed(), "{name}, {count}");
+            assert!((surface.area() / expected - 1.0).abs() < 0.02, "{name}, {count}");
+            assert!(surface.isolated() >= count - count / 10, "{name}, {count}");
+        }
+    }
+}
+
+#[test]
 fn closed_shapes_stay_closed() {
     let boxes = [grid_box([0.0; 3], [8, 6, 4], 0.5), grid_box([4.0, 0.0, 0.0], [8, 6, 4], 0.5)].concat();
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/bunny.ply");

@@ -19,7 +19,7 @@ fn check<const D: usize, const N: usize>(name: &str, mesh: &impl Mesh<D, N>, poi
 where
     Euclidean: Geometry<D, N>,
 {
-    let locator = Locator::new(mesh, Points::F64(points)).unwrap();
+    let locator = Locator::new(mesh, Points::F64(points)).unwrap().exact();
     let queries = queries(points);
     let located = locator.locate_many(Points::F64(&queries)).unwrap();
     assert_eq!(located.len(), queries.len());

@@ -1,16 +1,21 @@
 //! What is derived from meshes, against brute force.
 
 mod alpha;
+mod border;
 mod broken;
 #[path = "../shared/clouds.rs"]
 mod clouds;
+mod contours;
 mod evidence;
+mod flat;
 mod geometry;
 mod inputs;
 mod interpolate;
 mod locate;
 mod nearest;
 mod refine;
+mod smooth;
+mod sphere;
 mod surface;
 mod surfaces_pinned;
 mod tree;

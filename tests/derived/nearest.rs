@@ -25,7 +25,7 @@ where
     let queries: Vec<_> = queries(points).into_iter().step_by(3).collect();
     let nearest = locator.nearest_many(Points::F64(&queries)).unwrap();
     let exact: Vec<[BigInt; D]> = points.iter().map(|p| p.map(integer)).collect();
-    let is_vertex = |i: &usize| mesh.duplicate_of()[*i] == gdel::NONE && !mesh.simplices().is_empty();
+    let is_vertex = |i: &usize| mesh.duplicate_of()[*i] == gdel::NONE;
     for (&q, &nearest) in queries.iter().zip(&nearest) {
         let exact_q = q.map(integer);
         let distance = |i: usize| -> BigInt { exact[i].iter().zip(&exact_q).map(|(x, y)| (x - y) * (x - y)).sum() };

@@ -275,8 +275,10 @@ fn inputs_of_all_kinds_have_closed_surfaces() {
 #[test]
 fn too_few_and_flat_points_have_no_solid() {
     let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0], [2.0, 5.0, 0.0]];
-    for count in 0..5 {
-        let points = &points[..count];
+    let twins = [[1.0, 2.0, 3.0]; 6];
+    let few = (0..5).map(|count| &points[..count]).chain([&twins[..]]);
+    for points in few {
+        let count = points.len();
         let surface = surface3(points);
         assert_eq!((surface.facets(), surface.vertices(), surface.solid()), (&[][..], &[][..], &[][..]));
         assert_eq!((surface.volume(), surface.area(), surface.components(), surface.genus()), (0.0, 0.0, 0, 0));
@@ -419,6 +421,81 @@ fn noise_is_noticed_and_smoothed() {
 }
 
 #[test]
+fn coordinates_that_are_rounded_have_a_surface() {
+    // Nearly flat tetrahedra on the faces have circumspheres of any size.
+    let rounded = |x: f64| libm::rint(500.0 * x) / 500.0;
+    let half = random(8000, 3).into_iter().map(|[u, v, w]| {
+        let (sine, cosine) = (libm::sin(TAU * u), libm::cos(TAU * u));
+        let z = 2.0 * v - 1.0;
+        let r = 0.3 * (1.0 - z * z).sqrt();
+        if w < 0.3 { [r * cosine, r * sine, 0.3 * z + 0.7f64.copysign(z)] } else { [0.3 * cosine, 0.3 * sine, 0.7 * z] }
+    });
+    let points: Vec<_> = half.map(|p| p.map(rounded)).collect();
+    let surface = surface3(&points);
+    assert_eq!((surface.components(), surface.genus()), (1, 0));
+    assert_volume(&surface, PI * 0.09 * 1.4 + 4.0 / 3.0 * PI * 0.027, 0.01);
+}
+
+#[test]
+fn sparse_points_of_thin_rings_are_no_noise() {
+    // Two rings through each other, as a chain: of 40 neighbours some are on the other side of their ring.
+    let ring = |shift: f64, is_turned: bool| {
+        torus(500).into_iter().map(move |[x, y, z]| {
+            let r = libm::hypot(x, y);
+            let (x, y, r) = (x / r, y / r, 1.0 + 0.75 * (r - 1.0));
+            if is_turned { [r * x + shift, 0.75 * z, r * y] } else { [r * x + shift, r * y, 0.75 * z] }
+        })
+    };
+    let points: Vec<_> = ring(-0.5, false).chain(ring(0.5, true)).collect();
+    let surface = Surface::new(&mesh3(&points), &points, &SurfaceOptions::default()).unwrap();
+    assert!(surface.moved_points().is_none(), "{}", surface.noise());
+    assert_eq!((surface.components(), surface.genus()), (2, 2));
+    assert_volume(&surface, 2.0 * 2.0 * PI * PI * 0.09, 0.1);
+}
+
+/// Asserts that every edge has one triangle in each direction.
+#[track_caller]
+fn assert_closed(surface: &Surface) {
+    let mut directions: BTreeMap<[u32; 2], [usize; 2]> = BTreeMap::new();
+    for &[a, b, c] in surface.facets() {
+        for [a, b] in [[a, b], [b, c], [c, a]] {
+            assert_ne!(a, b);
+            directions.entry([a.min(b), a.max(b)]).or_default()[usize::from(a > b)] += 1;
+        }
+    }
+    assert!(directions.values().all(|&count| count == [1, 1]));
+}
+
+#[test]
+fn degenerate_inputs_have_closed_surfaces() {
+    let grid = |n: u32, at: f64| (0..n * n * n).map(move |i| [i % n, i / n % n, i / n / n].map(|x| at + f64::from(x)));
+    // Points that fill a volume lie on no surface; whatever is found is closed.
+    let solid_grid: Vec<_> = grid(9, 0.0).collect();
+    for options in [SurfaceOptions::default(), as_they_are()] {
+        assert_closed(&Surface::new(&mesh3(&solid_grid), &solid_grid, &options).unwrap());
+    }
+    let ball = sphere(2000, 1.0);
+    let doubled: Vec<_> = ball.iter().chain(&ball[..857]).copied().collect();
+    let boxes = [grid_box([0.0; 3], [8, 6, 4], 0.5), grid_box([4.0, 0.0, 0.0], [8, 6, 4], 0.5)].concat();
+    let inner: Vec<_> = torus(3000).into_iter().chain(sphere(4000, 3.0)).collect();
+    // Name, points, volume, components, genus.
+    let cases = [
+        ("duplicates", doubled, 4.0 / 3.0 * PI, 1, 0),
+        ("touching boxes", boxes, 48.0, 1, 0),
+        ("a scan in another", inner, 4.0 / 3.0 * PI * 27.0 - 2.0 * PI * PI * 0.16, 2, 1),
+    ];
+    for (name, points, volume, components, genus) in cases {
+        for options in [SurfaceOptions::default(), as_they_are()] {
+            let surface = Surface::new(&mesh3(&points), &points, &options).unwrap();
+            println!("{name}: {} {} {}", surface.volume(), surface.components(), surface.genus());
+            assert_closed(&surface);
+            assert_eq!((surface.components(), surface.genus()), (components, genus), "{name}");
+            assert_volume(&surface, volume, 0.02);
+        }
+    }
+}
+
+#[test]
 fn isolated_points_are_dropped() {
     let mut points = torus(4000);
     points.extend(random(40, 9).iter().map(|p| p.map(|x| 4.0 * x - 2.0)));
@@ -431,4 +508,35 @@ fn isolated_points_are_dropped() {
     assert!(surface.sides()[..4000].iter().filter(|&&side| side == Side::On).count() > 3980);
     assert_eq!(surface.sides()[4040], surface.sides()[0]);
     assert!(surface.sides()[4000..4040].iter().filter(|&&side| side == Side::Outside).count() >= surface.isolated());
+}
+
+#[test]
+fn outliers_that_are_near_each_other_are_dropped() {
+    let clean = torus(15_000);
+    let volume = surface3(&clean).volume();
+    for percent in [1, 5] {
+        let outliers = random(150 * percent, 9);
+        let mut points = clean.clone();
+        points.extend(outliers.iter().map(|p| p.map(|x| 4.0 * x - 2.0)));
+        let surface = Surface::new(&mesh3(&points), &points, &SurfaceOptions::default()).unwrap();
+        println!("{percent} %: {} of {} dropped, {}", surface.isolated(), outliers.len(), surface.volume() / volume);
+        assert_closed(&surface);
+        assert!(surface.isolated() > outliers.len() * 8 / 10);
+        assert_eq!((surface.components(), surface.genus()), (1, 1));
+        assert_volume(&surface, volume, 0.02);
+        assert!(surface.sides()[..15_000].iter().filter(|&&side| side == Side::On).count() > 14_800);
+    }
+}
+
+#[test]
+fn scans_that_become_sparse_keep_their_points() {
+    // A sphere with fewer and fewer points towards one pole, where they are eight times as far apart.
+    let is_seen = |&(i, p): &(usize, [f64; 3])| {
+        let up = (1.0 + p[2]) / 2.0;
+        i % (1 + (63.0 * up * up) as usize) == 0
+    };
+    let points: Vec<_> = sphere(20_000, 1.0).into_iter().enumerate().filter(is_seen).map(|(_, p)| p).collect();
+    let surface = Surface::new(&mesh3(&points), &points, &SurfaceOptions::default()).unwrap();
+    assert_eq!((surface.isolated(), surface.components(), surface.genus()), (0, 1, 0));
+    assert_volume(&surface, 4.0 / 3.0 * PI, 0.05);
 }

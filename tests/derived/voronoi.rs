@@ -5,6 +5,8 @@ use crate::inputs::{inputs2, inputs3, mesh2, mesh3};
 use gdel::{
     Cell, Clip, Error, Locator, Mesh, Points, Voronoi,
     internals::{
+        d2::generate::{Distribution2, generate2d},
+        d3::generate::{Distribution3, generate3d},
         derived::VoronoiShapes,
         geometry::{Euclidean, Geometry},
     },
@@ -41,7 +43,7 @@ fn check_cells<const D: usize, const N: usize>(
         assert_eq!(cell.facets.len(), cell.neighbors.len(), "{}", at());
         assert_eq!(cell.facets.len(), cell.areas.len(), "{}", at());
         assert_eq!(cell.vertices.len(), cell.simplices.len(), "{}", at());
-        if mesh.duplicate_of()[i] != gdel::NONE || mesh.simplices().is_empty() {
+        if mesh.duplicate_of()[i] != gdel::NONE {
             assert!(cell.is_empty() && cell.volume == 0.0, "{}", at());
         }
         assert!(cell.volume >= 0.0, "{}: {}", at(), cell.volume);
@@ -91,7 +93,7 @@ where
         diagram(Clip::Hull).diagram();
         return;
     }
-    let has_cells = !mesh.simplices().is_empty();
+    let has_cells = !points.is_empty();
     for bounds in boxes(points) {
         let voronoi = diagram(Clip::Box(bounds));
         let cells = voronoi.map_cells(|_, cell| cell.clone());
@@ -110,6 +112,10 @@ where
                 assert!((0..D).all(within), "{name} {centroid:?}");
             }
         }
+    }
+    // What flat points have within their own dimension is another matter.
+    if mesh.simplices().is_empty() {
+        return;
     }
     let hull = diagram(Clip::Hull);
     let sum: f64 = hull.volumes().iter().sum();
@@ -247,4 +253,110 @@ fn relaxation_moves_points_to_centres_and_leaves_the_others() {
     assert_eq!(relaxed[4], relaxed[5]);
     let relaxed = Voronoi::new(&mesh, &points, Clip::Hull).unwrap().relaxed();
     assert!(relaxed[0][0] > 0.0 && relaxed[0][1] > 0.0);
+}
+
+/// What does not depend on the unit: each volume in units of the box.
+fn shares<const D: usize, const N: usize>(
+    mesh: &impl Mesh<D, N>,
+    points: &[[f64; D]],
+    clip: Clip<'_, D>,
+    unit: f64,
+) -> Vec<f64>
+where
+    Euclidean: VoronoiShapes<D, N>,
+{
+    let volumes = Voronoi::new(mesh, Points::F64(points), clip).unwrap().volumes();
+    volumes.iter().map(|volume| (0..D).fold(*volume, |volume, _| volume / unit)).collect()
+}
+
+#[test]
+fn volumes_are_right_at_absurd_scales() {
+    let base = generate2d(Distribution2::Uniform, 40, 3);
+    let mesh = mesh2(&base);
+    for exponent in [-500, -300, -120, 120, 300, 500] {
+        let unit = 2f64.powi(exponent);
+        let scaled: Vec<[f64; 2]> = base.iter().map(|p| p.map(|x| x * unit)).collect();
+        for hull in [true, false] {
+            let clip = |unit: f64| if hull { Clip::Hull } else { Clip::Box([[-unit; 2], [2.0 * unit; 2]]) };
+            let (one, other) = (shares(&mesh, &base, clip(1.0), 1.0), shares(&mesh, &scaled, clip(unit), unit));
+            for (a, b) in one.iter().zip(other) {
+                assert!((a - b).abs() <= 1e-12 * a, "{exponent} {a} {b}");
+            }
+        }
+    }
+    let base = generate3d(Distribution3::Uniform, 12, 4);
+    let mesh = mesh3(&base);
+    for (unit, expected) in [(1e140, f64::INFINITY), (1e300, f64::INFINITY), (1e-170, 5e-324), (1e-300, 5e-324)] {
+        let scaled: Vec<[f64; 3]> = base.iter().map(|p| p.map(|x| x * unit)).collect();
+        let voronoi = Voronoi::new(&mesh, &scaled, Clip::Box([[0.0; 3], [unit; 3]])).unwrap();
+        assert!(voronoi.volumes().iter().all(|&volume| volume == expected), "{unit}");
+        let original = Voronoi::new(&mesh, &base, Clip::Box([[0.0; 3], [1.0; 3]])).unwrap();
+        for (p, q) in original.centroids().as_flattened().iter().zip(voronoi.centroids().as_flattened()) {
+            assert!((p - q / unit).abs() < 1e-12, "{unit}: {p} {q}");
+        }
+        assert_eq!(voronoi.neighbors(), original.neighbors());
+    }
+}
+
+#[test]
+fn areas_of_points_some_ulps_apart_are_right() {
+    // Fifty points of a lattice 14 wide, and the same as the last bits of numbers near 1.
+    let lattice: Vec<[f64; 2]> = (0..50).map(|i| [f64::from(i * 37 % 15), f64::from(i * i * 11 % 15)]).collect();
+    let mesh = mesh2(&lattice);
+    let expected = Voronoi::new(&mesh, &lattice, Clip::Box([[0.0; 2], [14.0; 2]])).unwrap().volumes();
+    for base in [1.0, 1000.0, 1e15] {
+        let ulp = f64::EPSILON * 2f64.powi(libm::ilogb(base));
+        let near: Vec<[f64; 2]> = lattice.iter().map(|p| p.map(|x| base + x * ulp)).collect();
+        let bounds = [[base; 2], [base + 14.0 * ulp; 2]];
+        let areas = shares(&mesh, &near, Clip::Box(bounds), ulp);
+        for (a, b) in expected.iter().zip(areas) {
+            assert!((a - b).abs() <= 1e-12 * a, "{base}: {a} {b}");
+        }
+    }
+}
+
+#[test]
+fn cells_are_clipped_to_convex_polygons_and_polyhedra() {
+    let points = generate2d(Distribution2::Uniform, 200, 5);
+    let mesh = mesh2(&points);
+    let total = |corners: &[[f64; 2]]| -> f64 {
+        Voronoi::new(&mesh, &points, Clip::Convex(corners)).unwrap().volumes().iter().sum()
+    };
+    // A diamond, one that has a corner twice and one in the middle of a side, and one that is far away.
+    assert!((total(&[[0.5, 0.0], [1.0, 0.5], [0.5, 1.0], [0.0, 0.5]]) - 0.5).abs() < 1e-14);
+    assert!((total(&[[0.5, 0.0], [0.0, 0.5], [0.5, 1.0], [1.0, 0.5], [0.5, 0.0], [0.25, 0.25]]) - 0.5).abs() < 1e-14);
+    assert!((total(&[[9.0, 9.0], [12.0, 9.0], [9.0, 11.0]]) - 3.0).abs() < 1e-12);
+    let square = [[-1.0, -1.0], [2.0, -1.0], [2.0, 2.0], [-1.0, 2.0]];
+    let [as_polygon, as_box] = [Clip::Convex(&square), Clip::Box([[-1.0; 2], [2.0; 2]])]
+        .map(|clip| Voronoi::new(&mesh, &points, clip).unwrap().map_cells(|_, cell| cell.clone()));
+    for (a, b) in as_polygon.iter().zip(&as_box) {
+        assert!((a.volume - b.volume).abs() < 1e-14);
+        assert_eq!(a.neighbors(), b.neighbors());
+    }
+
+    let points = generate3d(Distribution3::Ball, 200, 6);
+    let mesh = mesh3(&points);
+    let octahedron: Vec<[f64; 3]> =
+        (0..6).map(|i| std::array::from_fn(|axis| if axis == i / 2 { [-0.5, 1.5][i % 2] } else { 0.5 })).collect();
+    let voronoi = Voronoi::new(&mesh, &points, Clip::Convex(&octahedron)).unwrap();
+    assert!((voronoi.volumes().iter().sum::<f64>() - 4.0 / 3.0).abs() < 1e-12);
+    // The eight corners of a cube: each side once, though the hull has two triangles there.
+    let cube: Vec<[f64; 3]> = (0..8).map(|i| [i & 1, i >> 1 & 1, i >> 2].map(f64::from)).collect();
+    let [as_shape, as_box] = [Clip::Convex(&cube), Clip::Box([[0.0; 3], [1.0; 3]])]
+        .map(|clip| Voronoi::new(&mesh, &points, clip).unwrap().map_cells(|_, cell| cell.clone()));
+    for (a, b) in as_shape.iter().zip(&as_box) {
+        assert!((a.volume - b.volume).abs() < 1e-14);
+        assert_eq!(a.facets.len(), b.facets.len());
+    }
+}
+
+#[test]
+fn shapes_that_are_not_convex_are_errors() {
+    let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
+    let mesh = mesh2(&points);
+    let error = |corners: &[[f64; 2]]| Voronoi::new(&mesh, &points, Clip::Convex(corners)).unwrap_err().to_string();
+    assert!(error(&[[0.0, 0.0], [4.0, 0.0], [1.0, 1.0], [0.0, 4.0]]).ends_with("convex shapes"));
+    assert!(error(&[[0.0, 0.0], [4.0, 0.0], [2.0, 0.0]]).ends_with("with an inside"));
+    assert!(error(&[]).ends_with("with an inside"));
+    assert!(error(&[[0.0, 0.0], [4.0, f64::NAN], [2.0, 2.0]]).ends_with("finite"));
 }

@@ -10,6 +10,7 @@ use gdel::{
         gpu::{
             AdapterChoice, Gpu,
             engine::GpuEngine,
+            mutation::Mutation,
             phase1::{Budget, Settings},
         },
     },
@@ -216,6 +217,38 @@ fn a_device_that_passes_its_test_is_used() {
     let points = generate2d(Distribution2::Uniform, 3_000, 5);
     let mesh = engines.delaunay2d(&points).expect("the device computes what it should");
     assert_eq!(mesh.canonical(), gdel::delaunay2d(&points).expect("triangulates").canonical());
+}
+
+/// A device that is right, except that it turns one tetrahedron of every mesh over.
+fn wrong_device() -> Gpu {
+    let edit = |wgsl: String| {
+        let wrong = "mesh_tetrahedra[number]=select(points,points.yxzw,number==7);";
+        wgsl.replace("mesh_tetrahedra[number]=points;", wrong)
+    };
+    device().mutated(Some(Mutation { kernel: "d3/mesh_compact", edit: Arc::new(edit) }))
+}
+
+#[test]
+fn a_wrong_mesh_is_left_to_the_cpu_and_its_device_is_not_used_again() {
+    let engines = alone(Triangulator::from_gpu(wrong_device()));
+    let points = generate3d(Distribution3::Uniform, LEAST_3D, 4);
+    for _ in 0..2 {
+        let mesh = engines.delaunay3d(&points).expect("the CPU engine goes on");
+        let why = mesh.stats.fallback.as_ref();
+        assert!(matches!(why, Some(Fallback::GpuFailed(Error::WrongResults { .. }))), "{why:?}");
+        // The second time, nobody asks the device.
+        assert_eq!(mesh.stats.wrong_meshes, 1);
+        same(&points, &mesh);
+    }
+    let required = engines.clone().backend(Backend::Gpu);
+    assert!(matches!(required.delaunay3d(&points), Err(Error::WrongResults { .. })));
+    let plane = generate2d(Distribution2::Uniform, 100, 4);
+    assert!(matches!(required.delaunay2d(&plane), Err(Error::WrongResults { .. })));
+    // Until it is opened again.
+    block_on(engines.close());
+    assert_eq!(required.delaunay2d(&plane).expect("2D is right").stats.backend, Backend::Gpu);
+    assert!(matches!(required.delaunay3d(&points), Err(Error::WrongResults { .. })));
+    assert_eq!(engines.delaunay3d(&points).expect("the CPU engine goes on").stats.wrong_meshes, 2);
 }
 
 /// On machines with a hardware GPU this test shows nothing.

@@ -202,14 +202,49 @@ for (const [D, triangulate, generated] of [
       1 + sum(Array.from({ length: D }, (_, k) => (k + 2) * all[D * i + k]));
     const values = Float64Array.from({ length: 500 }, (_, i) => linear(points, i));
     for (const method of ['linear', 'laplace', 'sibson', undefined]) {
-      const found = await mesh.interpolate(values, queries, { method });
+      const { values: found, outside } = await mesh.interpolate(values, queries, { method });
       assert.ok(found instanceof Float64Array && found.length === 100);
       const inside = found.filter((value) => !Number.isNaN(value)).length;
       assert.ok(inside > 50 && inside < 100);
+      assert.equal(outside, 100 - inside);
       found.forEach((value, i) => {
         if (!Number.isNaN(value)) near(value, linear(queries, i), 1e-10);
       });
     }
+  });
+
+  test(`${D}D: contours of a coordinate are where it has the level`, async () => {
+    const points = await generated('uniform', 300, { seed: 6 });
+    const mesh = await triangulate(points);
+    const values = Float64Array.from({ length: 300 }, (_, i) => points[D * i + 1]);
+    const [half, none] = await mesh.contours(values, [0.5, 7]);
+    assert.equal(half.level, 0.5);
+    assert.ok(half.vertices.length > 0 && none.vertices.length === 0);
+    for (let i = 1; i < half.vertices.length; i += D) near(half.vertices[i], 0.5, 1e-12);
+    // A level below all values: closed along the hull.
+    const [all] = await mesh.contours(values, [-1], { closed: true });
+    const at = (v) => all.vertices.subarray(D * v, D * v + D);
+    if (D === 2) {
+      assert.deepEqual([...all.lineOffsets], [0, all.lines.length]);
+      assert.equal(all.lines[0], all.lines.at(-1));
+      assert.equal(all.lines.length - 1, mesh.hull.length);
+      assert.equal(half.lineOffsets.length, 2);
+    } else {
+      assert.equal(all.triangles.length, mesh.hull.length);
+      const six = (_, t) => {
+        const [a, b, c] = [0, 1, 2].map((k) => at(all.triangles[3 * t + k]));
+        return (
+          a[0] * (b[1] * c[2] - b[2] * c[1]) +
+          a[1] * (b[2] * c[0] - b[0] * c[2]) +
+          a[2] * (b[0] * c[1] - b[1] * c[0])
+        );
+      };
+      const volume = sum(Array.from({ length: all.triangles.length / 3 }, six)) / 6;
+      near(volume, sum((await mesh.voronoi({ clip: 'hull' })).volumes), 1e-9);
+    }
+    await rejects(mesh.contours([1], [0]), 'BAD_INPUT', /the values/);
+    await rejects(mesh.contours(values, 3), 'BAD_INPUT', /the levels/);
+    await rejects(mesh.contours(values, [3], { closed: 1 }), 'BAD_INPUT', /closed/);
   });
 
   test(`${D}D: clipped Voronoi cells fill the box and the hull`, async () => {
@@ -288,8 +323,31 @@ for (const [D, triangulate, generated] of [
     }
     assert.ok(balance.size > 0 && [...balance.values()].every((value) => value === 0));
     assert.equal((await mesh.alphaShape({ alpha: 0 })).solid.length, 0);
+    assert.equal(same.singularFacets.length + same.singularVertices.length, 0);
     const all = await mesh.alphaShape({ alpha: Infinity });
     assert.equal(all.solid.length * (D + 1), simplices.length);
+  });
+
+  test(`${D}D: singular faces of alpha shapes`, async () => {
+    // A simplex, then in 3D a triangle, an edge and a vertex, far from each other.
+    const unit = (axis, at) =>
+      Array.from({ length: D }, (_, k) => (k === 0 ? at : 0) + (k === axis ? 1 : 0));
+    const corners = (count, at) => Array.from({ length: count }, (_, i) => unit(i - 1, at));
+    const lists = [D + 1, ...(D === 3 ? [3] : []), 2, 1].map((count, i) => corners(count, 9 * i));
+    // They do not lie in a line.
+    const points = lists.flatMap((list, i) =>
+      list.map((p) => p.map((x, k) => x + (k ? i * i : 0))),
+    );
+    const mesh = await triangulate(points);
+    const shape = await mesh.alphaShape({ alpha: 1, singular: true });
+    assert.equal(shape.solid.length, 1);
+    const facets = D === 3 ? [4, 5, 6] : [3, 4];
+    assert.deepEqual([...shape.singularFacets].sort(), facets);
+    assert.deepEqual([...shape.singularEdges], D === 3 ? [7, 8] : [...shape.singularFacets]);
+    assert.deepEqual([...shape.singularVertices], [points.length - 1]);
+    const points0 = await mesh.alphaShape({ alpha: 0, singular: true });
+    assert.deepEqual([...points0.singularVertices], [...points.keys()]);
+    assert.equal((await mesh.alphaShape({ alpha: 1 })).singularVertices.length, 0);
   });
 
   test(`${D}D: spanning trees are those of Prim's algorithm`, async () => {
@@ -320,7 +378,8 @@ for (const [D, triangulate, generated] of [
 test('ties and duplicates', async () => {
   const mesh = await delaunay2d([...SQUARE, [0, 0]]);
   const tree = await mesh.spanningTree();
-  assert.deepEqual(sorted(tree.edges).filter((v) => v === 5).length, 0);
+  assert.deepEqual([...tree.edges.slice(0, 2)], [0, 5], 'a duplicate and its vertex');
+  assert.equal(tree.lengths[0], 0);
   const clusters = tree.clusters(5);
   assert.equal(clusters[5], clusters[0]);
   assert.equal(mesh.find(1, 0), 0, 'as near to points 0, 1 and 4');
@@ -364,28 +423,38 @@ test('find compares distances exactly', async () => {
   }
 });
 
-test('flat points have empty answers', async () => {
-  for (const points of [
-    [],
-    [[1, 2, 3]],
+test('flat points have answers in their own dimension', async () => {
+  for (const [points, volumes] of [
+    [[], [0, 0, 0, 0]],
+    [[[1, 2, 3]], [0, 0, 0, 1]],
     [
-      [0, 0, 0],
-      [1, 1, 1],
-      [2, 2, 2],
+      [
+        [0, 0, 0],
+        [1, 1, 1],
+        [2, 2, 2],
+      ],
+      [Infinity, 8, Math.sqrt(12), 1],
     ],
-    CUBE.slice(0, 4),
+    [CUBE.slice(0, 4), [Infinity, 1, 1, 1]],
   ]) {
     const mesh = await delaunay3d(points);
     const located = await mesh.locate([[0, 0, 0]]);
-    assert.deepEqual([located.tetrahedra[0], located.facets[0]], [-1, -1]);
-    assert.deepEqual([...(await mesh.nearest([[0, 0, 0]]))], [-1]);
-    const values = new Float64Array(points.length);
-    assert.ok(Number.isNaN((await mesh.interpolate(values, [[0, 0, 0]]))[0]));
-    for (const clip of ['none', 'box', 'hull', [0, 0, 0, 1, 1, 1]])
-      assert.equal(sum((await mesh.voronoi({ clip })).volumes), 0);
-    const shape = await mesh.alphaShape();
-    assert.deepEqual([shape.alpha, shape.solid.length, shape.components], [0, 0, 0]);
-    assert.equal((await mesh.spanningTree()).edges.length, 0);
+    assert.deepEqual([located.tetrahedra[0], located.facets[0], located.outside], [-1, -1, 1]);
+    // The last of them, or none.
+    const last = await mesh.nearest([[9, 9, 9]]);
+    assert.deepEqual([...last], [points.length - 1]);
+    const values = Float64Array.from(points, (_, i) => i + 1);
+    for (const method of ['linear', 'laplace', 'sibson']) {
+      const found = await mesh.interpolate(values, points, { method });
+      assert.deepEqual([[...found.values], found.outside], [[...values], 0]);
+      const beside = await mesh.interpolate(values, [[0, 0, 9]], { method, outside: -5 });
+      assert.deepEqual([[...beside.values], beside.outside], [[-5], 1]);
+    }
+    for (const [i, clip] of ['none', 'box', 'hull', [0, 0, 0, 1, 1, 1]].entries()) {
+      const total = sum((await mesh.voronoi({ clip })).volumes);
+      assert.ok(total === volumes[i] || Math.abs(total - volumes[i]) < 1e-12, `${clip}: ${total}`);
+    }
+    assert.equal((await mesh.spanningTree()).edges.length, 2 * Math.max(0, points.length - 1));
   }
   assert.equal((await cube.locate([])).tetrahedra.length, 0);
   assert.equal((await square.nearest(new Float64Array(0))).length, 0);
@@ -419,6 +488,7 @@ test('bad input is a typed error that says what is wrong', async () => {
   await rejects(cube.alphaShape({ alpha: -1 }), 'BAD_INPUT', /not negative/);
   await rejects(cube.alphaShape({ alpha: Number.NaN }), 'BAD_INPUT', /not negative/);
   await rejects(cube.alphaShape({ components: 0 }), 'BAD_INPUT', /an integer from 1 to/);
+  await rejects(cube.alphaShape({ singular: 1 }), 'BAD_INPUT', /singular/);
   const bare = await delaunay3d(CUBE, { outputs: [] });
   await rejects(bare.locate([[0, 0, 0]]), 'BAD_INPUT', /this needs 'neighbors'/);
   assert.throws(() => square.find(0, 0, 5), { code: 'BAD_INPUT' });
@@ -568,11 +638,11 @@ test('collinear points have stripes as cells, and one point has the box', async 
   const clip = [-1, -1, 5, 3];
   const one = await (await delaunay2d([[0, 0]])).voronoi({ clip });
   assert.deepEqual(one.cellPolygon(0), [
-    [-1, -1],
     [-1, 3],
     [5, 3],
     [5, -1],
     [-1, -1],
+    [-1, 3],
   ]);
   assert.deepEqual([...one.centroids], [2, 1]);
   const points = [
@@ -598,4 +668,168 @@ test('collinear points have stripes as cells, and one point has the box', async 
   assert.equal(far.volumes[4], 0);
   assert.equal(far.cellPolygon(4), null);
   near(sum(far.volumes), 24);
+});
+
+test('queries on the border that rounding has put outside are inside, unless they are to be exact', async () => {
+  const mesh = await delaunay2d([
+    [0, 0],
+    [0.3, 0.1],
+    [0, 1],
+  ]);
+  const queries = [
+    [0.03, 0.01],
+    [0, -1],
+  ];
+  const located = await mesh.locate(queries);
+  assert.deepEqual([[...located.triangles], located.outside], [[0, -1], 1]);
+  assert.equal((await mesh.locate(queries, { exact: true })).outside, 2);
+  const values = [1, 3, 5];
+  for (const method of ['linear', 'laplace', 'sibson']) {
+    const { values: found, outside } = await mesh.interpolate(values, queries, { method });
+    assert.ok(Math.abs(found[0] - 1.2) < 1e-14 && Number.isNaN(found[1]) && outside === 1);
+    const at = async (options) =>
+      (await mesh.interpolate(values, queries, { method, ...options })).values[1];
+    assert.equal(await at({ outside: -9 }), -9);
+    assert.equal(await at({ outside: 'nearest' }), 1);
+    // The function is linear.
+    near(await at({ outside: 'linear' }), -3, 1e-12);
+  }
+  await rejects(mesh.interpolate(values, queries, { outside: 'far' }), 'BAD_INPUT', /a number/);
+  await rejects(mesh.interpolate(values, queries, { exact: 1 }), 'BAD_INPUT', /true or false/);
+});
+
+test('equal points have the first value, the mean, or an error', async () => {
+  const mesh = await delaunay2d([
+    [0, 0],
+    [1, 0],
+    [0, 1],
+    [0, 0],
+  ]);
+  const at = async (duplicates) =>
+    (await mesh.interpolate([1, 1, 1, 9], [[0, 0]], { duplicates })).values[0];
+  assert.deepEqual([await at(undefined), await at('first'), await at('mean')], [1, 1, 5]);
+  await rejects(at('error'), 'BAD_INPUT', /points 0 and 3 are equal/);
+  await rejects(at('last'), 'BAD_INPUT', /first, mean, error/);
+  const tree = await mesh.spanningTree();
+  assert.deepEqual(
+    [[...tree.edges], [...tree.lengths]],
+    [
+      [0, 3, 0, 1, 0, 2],
+      [0, 1, 1],
+    ],
+  );
+  assert.deepEqual([...tree.clusters(3)], [0, 1, 2, 0]);
+});
+
+test('rescaled meshes scale their queries', async () => {
+  const points = Array.from({ length: 400 }, (_, i) => [
+    1000 * ((i * 0.754877666) % 1),
+    (i * 0.569840290998) % 1,
+  ]);
+  const value = ([x, t]) => Math.sin(x / 160) * Math.cos(6 * t);
+  const queries = points.slice(0, 100).map(([x, t]) => [100 + 0.8 * x, 0.15 + 0.7 * t]);
+  const error = async (rescale) => {
+    const mesh = await delaunay2d(points, { rescale });
+    const { values, outside } = await mesh.interpolate(points.map(value), queries);
+    assert.equal(outside, 0);
+    assert.equal(mesh.find(...points[7]), 7);
+    assert.deepEqual([...(await mesh.nearest(points.slice(7, 9)))], [7, 8]);
+    const squares = queries.map((q, i) => (values[i] - value(q)) ** 2);
+    return [Math.sqrt(sum(squares) / squares.length), mesh];
+  };
+  const [[asIs, plain], [all, mesh], [given]] = [
+    await error(false),
+    await error(true),
+    await error([0.001, 1]),
+  ];
+  assert.ok(asIs > 5 * all && all < 0.05 && given < 0.05, `${asIs} ${all} ${given}`);
+  assert.equal(plain.factors, null);
+  assert.ok(mesh.factors[0] < 0.0011 && mesh.factors[1] > 1);
+  const [index] = await mesh.insert([[500, 0.5]]);
+  assert.deepEqual([index, mesh.find(500, 0.5)], [400, 400]);
+  await rejects(delaunay2d(points, { rescale: [1, 0] }), 'BAD_INPUT', /2 positive numbers/);
+});
+
+test('values on a grid, weights for many columns, gradients and smooth interpolation', async () => {
+  const xs = Array.from(
+    { length: 200 },
+    (_, i) => Math.abs(Math.sin(i * 12.9898) * 43758.5453) % 1,
+  );
+  const points = Float64Array.from(xs.flatMap((x, i) => [x, xs[(i + 67) % 200]]));
+  const plane = (x, y) => 3 * x - 2 * y + 1;
+  const values = Array.from({ length: 200 }, (_, i) => plane(points[2 * i], points[2 * i + 1]));
+  const mesh = await delaunay2d(points);
+  const grid = { width: 7, height: 5, bounds: [0.2, 0.3, 0.9, 0.8] };
+  const centers = Array.from({ length: 35 }, (_, i) => [
+    0.2 + 0.1 * ((i % 7) + 0.5),
+    0.3 + 0.1 * (Math.floor(i / 7) + 0.5),
+  ]);
+  for (const method of ['linear', 'laplace', 'sibson', 'sibson-c1', 'clough-tocher']) {
+    const found = await mesh.interpolateGrid(values, { ...grid, method });
+    const single = await mesh.interpolate(values, centers, { method });
+    assert.equal(found.outside, single.outside);
+    centers.forEach(([x, y], i) => {
+      near(found.values[i], single.values[i], 1e-12);
+      if (!Number.isNaN(found.values[i])) near(found.values[i], plane(x, y), 1e-9);
+    });
+  }
+  const gradients = await mesh.gradients(values);
+  for (let i = 0; i < 200; i++) {
+    near(gradients[2 * i], 3, 1e-9);
+    near(gradients[2 * i + 1], -2, 1e-9);
+  }
+  const table = await mesh.interpolationWeights([...centers, [9, 9]], { method: 'sibson' });
+  assert.equal(table.offsets.length, 37);
+  assert.equal(table.offsets[36], table.offsets[35], 'no weights outside');
+  assert.equal(table.outside, 1);
+  const { values: expected } = await mesh.interpolate(values, centers, { method: 'sibson' });
+  for (let q = 0; q < 35; q++) {
+    let total = 0;
+    for (let k = table.offsets[q]; k < table.offsets[q + 1]; k++)
+      total += table.weights[k] * values[table.points[k]];
+    near(total, expected[q], 1e-12);
+  }
+  const all = await mesh.interpolateGrid(values, { width: 1, height: 1 });
+  assert.equal(all.values.length, 1);
+  const scaled = await delaunay2d(points, { rescale: [1, 1000] });
+  near((await scaled.gradients(values))[1], -2, 1e-9);
+  near((await scaled.interpolateGrid(values, grid)).values[17], expected[17], 1e-9);
+  const bad = { code: 'BAD_INPUT' };
+  await assert.rejects(mesh.interpolateGrid(values, { width: 0, height: 5 }), bad);
+  await assert.rejects(mesh.interpolateGrid(values, { width: 5 }), bad);
+  await assert.rejects(mesh.interpolateGrid(values, { ...grid, bounds: [0, 0, 1] }), bad);
+  await assert.rejects(mesh.interpolateGrid(values, { ...grid, bounds: [0, 0, 0, 1] }), bad);
+  await assert.rejects(mesh.interpolateGrid(values, { width: 2 ** 20, height: 2 ** 20 }), bad);
+  await assert.rejects(mesh.interpolationWeights(centers, { method: 'sibson-c1' }), bad);
+  await assert.rejects(
+    cube.interpolate(new Float64Array(9), [[0, 0, 0]], { method: 'clough-tocher' }),
+    bad,
+  );
+  const solid = await cube.interpolateGrid(new Float64Array(9).fill(4), {
+    width: 2,
+    height: 3,
+    depth: 4,
+  });
+  assert.equal(solid.values.length, 24);
+  for (const value of solid.values) near(value, 4);
+});
+
+test('points in a plane have a hull and alpha shapes of their own dimension', async () => {
+  const flat = await delaunay3d(SQUARE.map(([x, y]) => [x, 5, y]));
+  assert.deepEqual([flat.dimension, flat.hull.length], [2, 0]);
+  const all = await flat.alphaShape({ alpha: Infinity });
+  assert.deepEqual([all.surface.length, all.solid.length, all.components], [3 * 8, 0, 1]);
+  near((await flat.alphaShape()).alpha, 1);
+  const lone = await flat.alphaShape({ alpha: 1, singular: true });
+  assert.deepEqual([lone.singularFacets.length, lone.singularVertices.length], [3 * 4, 0]);
+  const faces = new TextDecoder().decode(await flat.toOBJ()).match(/^f /gm);
+  assert.equal(faces.length, 8);
+  assert.ok((await flat.toSTL()).length > 80);
+  const line = await delaunay3d([0, 1, 3].map((x) => [x, 0, 0]));
+  const segments = await line.alphaShape({ alpha: 0.5, singular: true });
+  assert.deepEqual([[...segments.singularEdges], segments.components], [[0, 1], 1]);
+  assert.deepEqual([...segments.singularVertices], [2]);
+  const inPlane = await (await delaunay2d([0, 1, 3].map((x) => [x, 0]))).alphaShape();
+  assert.deepEqual([inPlane.surface.length, inPlane.components], [2 * 4, 1]);
+  near(inPlane.alpha, 1);
 });

@@ -212,6 +212,7 @@ test('each option is checked', async () => {
   for (const gpu of [{}, 'webgpu', null])
     await fails(() => createTriangulator({ gpu }), 'BAD_INPUT', /gpu must be a GPU object/);
   await fails(() => createTriangulator({ worker: 'no' }), 'BAD_INPUT', /worker/);
+  await fails(() => createTriangulator({ selfTest: 'no' }), 'BAD_INPUT', /selfTest/);
   await fails(() => createTriangulator({ backend: 'tpu' }), 'BAD_INPUT', /backend/);
   for (const option of ['signal', 'onProgress', 'backend', 'transfer'])
     await fails(

@@ -54,7 +54,7 @@ test('the meshes are the native ones', async () => {
     const report = await verify(points, mesh);
     assert.ok(report.passed, JSON.stringify(report));
     assert.equal(report.counts.tetrahedra, tetrahedra);
-    assert.equal(report.checks.length, 14);
+    assert.equal(report.checks.length, 15);
   }
 });
 

@@ -1,7 +1,7 @@
 // What is derived from meshes: options and results.
 
 import type { Coordinates, Doubles, Indices, SignedIndices } from './arrays.js';
-import type { TaskOptions } from './types.js';
+import type { Points, TaskOptions } from './types.js';
 
 /** How values are interpolated between the vertices. */
 export type InterpolationMethod =
@@ -10,7 +10,14 @@ export type InterpolationMethod =
   /** Natural neighbours, weighted by the areas of facets of Voronoi cells and by distances. */
   | 'laplace'
   /** Natural neighbours, weighted by volumes of Voronoi cells: smooth except at the vertices. */
-  | 'sibson';
+  | 'sibson'
+  /** The same with gradients: smooth everywhere. */
+  | 'sibson-c1'
+  /**
+   * A cubic in each third of a triangle, with gradients: smooth everywhere, and faster than natural neighbours. In 2D,
+   * and for points in a plane or on a line.
+   */
+  | 'clough-tocher';
 
 /** Options of `nearest`. */
 export interface NearestOptions extends TaskOptions {
@@ -18,10 +25,98 @@ export interface NearestOptions extends TaskOptions {
   k?: number | undefined;
 }
 
+/** Options of `locate`. */
+export interface LocateOptions extends TaskOptions {
+  /**
+   * Whether queries outside the hull count as such, however near they are. Default false: those are inside
+   * that are outside by no more than coordinates are rounded, which is along each axis four units in the
+   * last place of the largest coordinate of the points (2⁻⁵⁰ of it; 2⁻²¹ if the points or the queries are a
+   * `Float32Array`).
+   */
+  exact?: boolean | undefined;
+}
+
 /** Options of `interpolate`. */
-export interface InterpolateOptions extends TaskOptions {
+export interface InterpolateOptions extends LocateOptions {
   /** Default `'linear'`. */
   method?: InterpolationMethod | undefined;
+  /**
+   * The value outside the hull, whatever the method: NaN, that of the nearest vertex, that at the nearest
+   * place of the hull continued along the gradient there, or a number. Default `'nan'`.
+   */
+  outside?: 'nan' | 'nearest' | 'linear' | number | undefined;
+  /**
+   * The value of points with equal coordinates: that of the first, the mean of all, or an error of code
+   * `BAD_INPUT` if they differ. Default `'first'`.
+   */
+  duplicates?: 'first' | 'mean' | 'error' | undefined;
+}
+
+/** Options of `interpolateGrid`. */
+export interface GridOptions extends InterpolateOptions {
+  /** The number of cells along *x*. */
+  width: number;
+  /** The number of cells along *y*. */
+  height: number;
+  /** The number of cells along *z*, in 3D. */
+  depth?: number | undefined;
+  /**
+   * The lowest and the highest coordinates of the grid: [xmin, ymin, xmax, ymax], or [xmin, ymin, zmin, xmax, ymax,
+   * zmax]. Default: the smallest box that contains all points.
+   */
+  bounds?: ArrayLike<number> | undefined;
+}
+
+/** The weights of the points at queries, as a sparse matrix in compressed rows. */
+export interface InterpolationWeights {
+  /** Where the entries of each query start, and one more that says where the last ones end. */
+  readonly offsets: Indices;
+  /** The point of each entry. */
+  readonly points: Indices;
+  /** The weight of each entry. Those of a query have the sum 1. */
+  readonly weights: Doubles;
+  /** How many queries were outside the hull. These have no entries where a constant is the value. */
+  readonly outside: number;
+}
+
+/** The values at queries. */
+export interface Interpolated {
+  /** One per query. */
+  readonly values: Doubles;
+  /** How many queries were outside the hull. */
+  readonly outside: number;
+}
+
+/** Options of `contours`. */
+export interface ContourOptions extends TaskOptions {
+  /**
+   * Whether to close contours along the hull: they are then the boundary of where values are the level
+   * or higher. Default false: they end at the hull.
+   */
+  closed?: boolean | undefined;
+}
+
+/** The contour lines of a level in 2D. */
+export interface Contour2 {
+  readonly level: number;
+  /** 2 coordinates per vertex. */
+  readonly vertices: Doubles;
+  /** Where the vertices of each line start in `lines`; one more entry says where the last end. */
+  readonly lineOffsets: Indices;
+  /**
+   * The vertices of each line; of a closed line, the first one comes again at the end. Lines around
+   * higher values have the orientation of the triangles.
+   */
+  readonly lines: Indices;
+}
+
+/** The isosurface of a level in 3D. */
+export interface Contour3 {
+  readonly level: number;
+  /** 3 coordinates per vertex. */
+  readonly vertices: Doubles;
+  /** 3 vertices per triangle, counter-clockwise as seen from where values are lower. */
+  readonly triangles: Indices;
 }
 
 /** A box: the lowest coordinates, then the highest, as in `[xmin, ymin, zmin, xmax, ymax, zmax]`. */
@@ -31,9 +126,9 @@ export type Bounds = ArrayLike<number>;
 export interface VoronoiOptions extends TaskOptions {
   /**
    * What the cells are clipped to: nothing, the smallest box that contains all points, their convex
-   * hull, or a box. Default `'none'`.
+   * hull, a box, or the convex polygon or polyhedron with some corners, in any order. Default `'none'`.
    */
-  clip?: 'none' | 'box' | 'hull' | Bounds | undefined;
+  clip?: 'none' | 'box' | 'hull' | Bounds | { corners: Points } | undefined;
 }
 
 /** Options of `alphaShape`. */
@@ -47,20 +142,27 @@ export interface AlphaOptions extends TaskOptions {
   components?: number | undefined;
   /** Whether to return `criticalValues`, default false. */
   criticalValues?: boolean | undefined;
+  /**
+   * Whether to return `singularFacets`, `singularEdges` and `singularVertices`, default false. They take
+   * longer than all else.
+   */
+  singular?: boolean | undefined;
 }
 
 /** The alpha shape of the points of a mesh for one radius. */
 export interface AlphaShape {
-  /** The radius; 0 if that was `'auto'` and the points are flat. */
+  /** The radius; 0 if that was `'auto'` and there are less than two vertices. */
   readonly alpha: number;
   /** The simplices of the mesh that belong to the solid, ascending. */
   readonly solid: Indices;
   /**
    * The boundary of the solid, closed: 3 vertices per triangle, counter-clockwise as seen from
-   * outside; in 2D 2 vertices per edge, in the direction in which it runs in its triangle.
+   * outside; in 2D 2 vertices per edge, in the direction in which it runs in its triangle. Points in a
+   * plane of 3D, which have no solid, have the triangles up to this radius, each from both sides, and
+   * points on a line in 2D edges in both directions; on a line in 3D, `singularEdges` has them.
    */
   readonly surface: Indices;
-  /** The number of components of the solid, which hang together across facets. */
+  /** The number of components of the solid, or of what flat points have instead, which hang together across facets. */
   readonly components: number;
   /** The component of each simplex of the mesh, −1 outside the solid. */
   readonly componentOf: Int32Array;
@@ -71,6 +173,19 @@ export interface AlphaShape {
   readonly radii: Doubles;
   /** The radii at which anything changes, ascending; empty unless requested. */
   readonly criticalValues: Doubles;
+  /**
+   * The facets of the alpha complex that belong to no simplex in it, if requested: 3 vertices per
+   * triangle, in 2D 2 per edge. An alpha complex has the simplices of the solid, and the faces that
+   * have an empty sphere of this radius or less through their vertices.
+   */
+  readonly singularFacets: Indices;
+  /**
+   * The edges of the alpha complex that belong to nothing larger in it, if requested: 2 vertices per
+   * edge. In 2D they are the facets.
+   */
+  readonly singularEdges: Indices;
+  /** The vertices that belong to nothing larger in the alpha complex, if requested: isolated ones. */
+  readonly singularVertices: Indices;
 }
 
 /** Options of `surface`. */
@@ -82,7 +197,8 @@ export interface SurfaceOptions extends TaskOptions {
   minPart?: number | undefined;
   /**
    * Whether to drop points that are far from all others before the surface is found: the sixth nearest
-   * one is more than four times as far away as is usual, and as it is around them. Default true.
+   * one is more than four times as far away as is usual, and as it is around them unless those around them
+   * lie on no surface either. Default true.
    */
   dropIsolated?: boolean | undefined;
   /**
@@ -253,4 +369,63 @@ export interface VoronoiArrays {
   readonly volumes: Doubles;
   /** The centre of mass of each point's cell; NaN for unbounded and empty cells. */
   readonly centroids: Doubles;
+}
+
+/** The Delaunay triangulation of points on the unit sphere, as arrays. */
+export interface SphereArrays {
+  /**
+   * 3 points per triangle, counter-clockwise as seen from outside. They cover the sphere once: where all
+   * points are within a half of it, the other half, too. One or two points have none.
+   */
+  readonly triangles: Indices;
+  /** 3 per triangle: the opposite of the half-edge from vertex *k* to the next one. */
+  readonly halfedges: SignedIndices;
+  /**
+   * One per triangle: 1 if it is outside the spherical convex hull, where it only closes the sphere, else
+   * 0. Its circumcircle is larger than a half of the sphere.
+   */
+  readonly outer: Uint8Array<ArrayBuffer>;
+  /**
+   * If all points are inside one half of the sphere, the vertices of their spherical convex hull:
+   * counter-clockwise as seen from outside, from the lowest on. Otherwise empty.
+   */
+  readonly hull: Indices;
+  /**
+   * One per point: −1, or the point that represents this one: the first at the same place, or the nearest
+   * one if they are nearer to each other than about 10⁻⁸ of the radius.
+   */
+  readonly duplicateOf: SignedIndices;
+}
+
+/** Where places are on a sphere. */
+export interface LocationsOnSphere {
+  /** For each query the triangle that contains it, −1 outside the spherical convex hull. */
+  readonly triangles: SignedIndices;
+  /** How many queries are outside. */
+  readonly outside: number;
+}
+
+/** The Voronoi cells of points on the unit sphere, as arrays. */
+export interface SphereVoronoiArrays {
+  /**
+   * The longitudes and latitudes of the corners of cells: first those of the centre of each triangle, then
+   * of those in the middle of edges that are longer than a quarter of a great circle.
+   */
+  readonly vertices: Doubles;
+  /** Where the corners of each point's cell start; one more entry says where the last end. */
+  readonly cells: Indices;
+  /** The corners of each cell, counter-clockwise as seen from outside. */
+  readonly corners: Indices;
+  /** The area of each cell in steradians; 0 for duplicates. The sum of all is 4π. */
+  readonly areas: Doubles;
+}
+
+/** The edges of a sphere. */
+export interface SphereEdges {
+  /** 2 points per edge, the lower one first; without those that are outside the hull only. */
+  readonly edges: Indices;
+  /** The length of each edge in radians. */
+  readonly lengths: Doubles;
+  /** 1 for edges of the Urquhart graph: those that are not the longest one of a triangle. */
+  readonly urquhart: Uint8Array<ArrayBuffer>;
 }

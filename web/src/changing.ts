@@ -4,7 +4,10 @@ import type {
   AlphaOptions,
   AlphaShape,
   Geometry,
+  GridOptions,
+  Interpolated,
   InterpolateOptions,
+  InterpolationWeights,
   NearestOptions,
   Topology,
 } from './answers.js';
@@ -12,7 +15,10 @@ import type { Doubles, Indices, SignedIndices } from './arrays.js';
 import {
   alphaShape,
   geometry,
+  gradients,
   interpolate,
+  interpolateGrid,
+  interpolationWeights,
   nearest,
   type Source,
   type SpanningTree,
@@ -32,6 +38,19 @@ export abstract class Mesh extends Triangles {
   declare readonly stats: Stats;
   declare readonly hull: Indices;
   declare readonly dimension: number;
+  /**
+   * The points that are no vertices because of their weights, in ascending order; empty without the options
+   * `weights` and `radii`.
+   */
+  declare readonly hidden: Indices;
+  /**
+   * The weights of the points, or null if the mesh is a Delaunay triangulation, which it is without
+   * weights, and if all are equal. What is derived from meshes, and their changes, need one, and else fail with
+   * `BAD_INPUT`.
+   */
+  declare readonly weights: Doubles | null;
+  /** By which the coordinates were multiplied, one per axis; null without the option `rescale`. */
+  readonly factors: readonly number[] | null;
   readonly #update: Update<Task>;
   readonly #updating = new Updating();
 
@@ -39,6 +58,7 @@ export abstract class Mesh extends Triangles {
   constructor(done: Done<Task>, update: Update<Task>) {
     super();
     this.#update = update;
+    this.factors = update.factors ?? null;
     this._take(done);
   }
 
@@ -144,7 +164,7 @@ export abstract class Mesh extends Triangles {
 
   /**
    * Returns the vertex that is nearest to each query point, exactly: of several at the same distance
-   * the one with the lowest index; −1 if the mesh has no simplices. With `k`, the `k` nearest ones, nearest
+   * the one with the lowest index; −1 if there are no points. With `k`, the `k` nearest ones, nearest
    * first, and −1 where there are not so many.
    */
   async nearest(queries: Points, options?: NearestOptions): Promise<SignedIndices> {
@@ -152,16 +172,60 @@ export abstract class Mesh extends Triangles {
   }
 
   /**
-   * Returns the interpolated value at each query point, NaN outside the hull.
+   * Returns the interpolated value at each query point, and how many of these are outside the hull.
    *
-   * @param values One number per point of the mesh; those of duplicates and removed points are not used.
+   * @param values One number per point of the mesh; those of removed points are not used.
+   * @throws {@link GdelError} `NOT_FINITE` with the `index` of a query, `BAD_INPUT`.
    */
   async interpolate(
     values: ArrayLike<number>,
     queries: Points,
     options?: InterpolateOptions,
-  ): Promise<Doubles> {
+  ): Promise<Interpolated> {
     return interpolate(this._source(), values, queries, options);
+  }
+
+  /**
+   * Returns the interpolated value at the centre of each cell of a grid, such as the pixels of an image: row by row, with
+   * *x* growing in a row, *y* from row to row, and in 3D *z* from layer to layer. Faster than
+   * {@link interpolate}.
+   *
+   * @param values One number per point of the mesh; those of removed points are not used.
+   * @throws {@link GdelError} `BAD_INPUT`.
+   *
+   * @example
+   *
+   * ```js
+   * const { values: heights } = await mesh.interpolateGrid(z, { width: 500, height: 400 });
+   * ```
+   */
+  async interpolateGrid(values: ArrayLike<number>, options: GridOptions): Promise<Interpolated> {
+    return interpolateGrid(this._source(), values, options);
+  }
+
+  /**
+   * Returns the weights with which values at the points are interpolated at each query point, for many
+   * columns of values. Those of smooth methods depend on the values, so there are none.
+   *
+   * @throws {@link GdelError} `NOT_FINITE` with the `index` of a query, `BAD_INPUT`.
+   */
+  async interpolationWeights(
+    queries: Points,
+    options?: InterpolateOptions,
+  ): Promise<InterpolationWeights> {
+    return interpolationWeights(this._source(), queries, options);
+  }
+
+  /**
+   * Returns the gradient of values at each point, which smooth interpolation uses: 2 or 3 numbers per
+   * point, 0 for duplicates. Along the edges, the cubics that they determine with the values are
+   * the least curved on the whole.
+   *
+   * @param values One number per point of the mesh; those of removed points are not used.
+   * @throws {@link GdelError} `BAD_INPUT`.
+   */
+  async gradients(values: ArrayLike<number>, options?: InterpolateOptions): Promise<Doubles> {
+    return gradients(this._source(), values, options);
   }
 
   /**
@@ -182,7 +246,7 @@ export abstract class Mesh extends Triangles {
     return geometry(this._source(), options);
   }
 
-  /** Returns the Euclidean minimum spanning tree of the vertices, with single-linkage clusters. */
+  /** Returns the Euclidean minimum spanning tree of the points, with single-linkage clusters. */
   async spanningTree(options?: TaskOptions): Promise<SpanningTree> {
     return spanningTree(this._source(), options);
   }

@@ -33,6 +33,7 @@ export interface Connection extends Place {
 export function workerConnection(
   { value: thread, whyInlined }: Loaded<WorkerThread>,
   module: Loaded<WebAssembly.Module>,
+  selfTest?: boolean,
 ): Connection {
   let next = 0;
   let isAlive = true;
@@ -49,7 +50,7 @@ export function workerConnection(
     if (message.type !== 'ready' && message.id === pending?.id) pending.handle(message);
   });
   thread.onError(fail);
-  thread.post({ type: 'load', module: module.value }, []);
+  thread.post({ type: 'load', module: module.value, selfTest }, []);
 
   return {
     thread: 'worker',

@@ -10,28 +10,46 @@ type DerivedTask =
   | 'locate'
   | 'nearest'
   | 'interpolate'
+  | 'interpolateGrid'
+  | 'interpolationWeights'
+  | 'gradients'
+  | 'contours'
   | 'voronoi'
   | 'alphaShape'
   | 'surface'
   | 'spanningTree'
   | 'topology'
-  | 'geometry';
+  | 'geometry'
+  | 'onSphere'
+  | 'sphere'
+  | 'sphereNearest'
+  | 'sphereLocate'
+  | 'sphereInterpolate'
+  | 'sphereVoronoi';
 
 export function openCore(module: WebAssembly.Module): Core {
   const { glue, memory } = instantiate(makeGlue, module);
   const tasks: {
     [T in DerivedTask]: (args: Tasks[T]['args'], report: ReportProgress) => Tasks[T]['result'];
   } = {
-    locate: ({ dimension, points, mesh, queries }, report) =>
-      glue.locate(dimension, points, mesh, queries, report),
+    locate: ({ dimension, points, mesh, queries, options }, report) =>
+      glue.locate(dimension, points, mesh, queries, options, report),
     nearest: ({ dimension, points, mesh, queries, k }, report) =>
       glue.nearest(dimension, points, mesh, queries, k, report) as SignedIndices,
-    interpolate: ({ dimension, points, mesh, queries, values, method }, report) =>
-      glue.interpolate(dimension, points, mesh, queries, values, method, report) as Doubles,
+    interpolate: ({ dimension, points, mesh, queries, values, options }, report) =>
+      glue.interpolate(dimension, points, mesh, queries, values, options, report),
+    interpolateGrid: ({ dimension, points, mesh, values, grid, options }, report) =>
+      glue.interpolateGrid(dimension, points, mesh, values, grid, options, report),
+    interpolationWeights: ({ dimension, points, mesh, queries, options }, report) =>
+      glue.interpolationWeights(dimension, points, mesh, queries, options, report),
+    gradients: ({ dimension, points, mesh, values, options }, report) =>
+      glue.gradients(dimension, points, mesh, values, options, report),
+    contours: ({ dimension, points, mesh, values, levels, closed }, report) =>
+      glue.contours(dimension, points, mesh, values, levels, closed, report),
     voronoi: ({ dimension, points, mesh, clip, bounds }, report) =>
       glue.voronoi(dimension, points, mesh, clip, bounds, report),
-    alphaShape: ({ dimension, points, mesh, alpha, components, criticalValues }, report) =>
-      glue.alphaShape(dimension, points, mesh, alpha, components, criticalValues, report),
+    alphaShape: ({ dimension, points, mesh, options }, report) =>
+      glue.alphaShape(dimension, points, mesh, options, report),
     surface: ({ dimension, points, mesh, options }, report) =>
       glue.surface(dimension, points, mesh, options, report),
     spanningTree: ({ dimension, points, mesh }, report) =>
@@ -40,12 +58,23 @@ export function openCore(module: WebAssembly.Module): Core {
       glue.topology(dimension, points, mesh, report),
     geometry: ({ dimension, points, mesh }, report) =>
       glue.geometry(dimension, points, mesh, report),
+    onSphere: ({ places }) => glue.onSphere(places) as Doubles,
+    sphere: ({ points, triangles, duplicateOf }, report) =>
+      glue.sphere(points, triangles, duplicateOf, report),
+    sphereNearest: ({ points, triangles, duplicateOf, queries }, report) =>
+      glue.sphereNearest(points, triangles, duplicateOf, queries, report) as SignedIndices,
+    sphereLocate: ({ points, triangles, duplicateOf, queries }, report) =>
+      glue.sphereLocate(points, triangles, duplicateOf, queries, report),
+    sphereInterpolate: ({ points, triangles, duplicateOf, queries, values }, report) =>
+      glue.sphereInterpolate(points, triangles, duplicateOf, queries, values, report),
+    sphereVoronoi: ({ points, triangles, duplicateOf }, report) =>
+      glue.sphereVoronoi(points, triangles, duplicateOf, report),
   };
   const handlers = Object.entries(tasks).map(([name, task]) => [
     name,
     async (args: never, control: Control) => {
       control.onBlocking();
-      let last = '';
+      let last: string = name;
       const reported = reporting(control);
       const result = task(args, (phase, fraction) => reported((last = phase), fraction));
       control.onProgress({ phase: last, fraction: 1 });

@@ -1,4 +1,5 @@
-// The task of the module for meshes in the memory of the CPU that gain and lose points.
+// The tasks of the module for meshes in the memory of the CPU that gain and lose points, and for
+// those of weighted points.
 
 import makeGlue from 'glue:edit';
 import { type Core, coreOf, reporting, statsOfCpu } from './core.js';
@@ -16,6 +17,15 @@ export function openCore(module: WebAssembly.Module): Core {
         const wanted = outputsFor(glue, outputs);
         const report = reporting(control);
         const mesh = glue.change(dimension, points, before, given, removed, wanted, report);
+        if (dimension === 3) withEmpty(mesh);
+        return { points, ...mesh, stats: statsOfCpu(mesh.stats, started, memory) };
+      },
+      async regular({ dimension, points, weights, outputs }, control) {
+        const started = performance.now();
+        control.onBlocking();
+        const wanted = outputsFor(glue, outputs);
+        const report = reporting(control);
+        const mesh = glue.regular_triangulation(dimension, points, weights, wanted, report);
         if (dimension === 3) withEmpty(mesh);
         return { points, ...mesh, stats: statsOfCpu(mesh.stats, started, memory) };
       },

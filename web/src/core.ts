@@ -32,6 +32,8 @@ export interface Uses {
    * compute.
    */
   device?: Device | undefined;
+  /** Whether the device is tested before it is used, if the caller says so. */
+  selfTest?: boolean | undefined;
 }
 
 /** One WebAssembly instance and its tasks. */

@@ -4,7 +4,10 @@ import { moduleDerived } from '#assets';
 import type {
   AlphaOptions,
   AlphaShape,
+  ContourOptions,
+  GridOptions,
   InterpolateOptions,
+  LocateOptions,
   NearestOptions,
   SurfaceArrays,
   SurfaceOptions,
@@ -22,7 +25,7 @@ import {
   optionsOf,
   taskOptions,
 } from './options.js';
-import { copyOf } from './points.js';
+import { copyOf, scaled } from './points.js';
 import type { DerivedMesh, TaskName, Tasks } from './protocol.js';
 import { runShared } from './shared.js';
 import { write } from './tools.js';
@@ -33,6 +36,8 @@ export interface Source {
   dimension: 2 | 3;
   points: Coordinates;
   mesh: DerivedMesh;
+  /** By which queries are multiplied, one per axis. */
+  factors: readonly number[] | null;
 }
 
 async function run<T extends TaskName>(
@@ -46,9 +51,16 @@ async function run<T extends TaskName>(
   return runShared(moduleDerived, task, all, options);
 }
 
-export async function locate(source: Source, queries: Points, options: TaskOptions | undefined) {
+/** Returns a copy of queries, scaled as the points are. */
+const queriesOf = async ({ dimension, factors }: Source, queries: Points, task: TaskOptions) =>
+  scaled(await copyOf(queries, dimension, task), factors ?? undefined);
+
+export async function locate(source: Source, queries: Points, options: LocateOptions | undefined) {
+  const { exact } = optionsOf(options);
+  checkBoolean('exact', exact);
   const task = taskOptions(optionsOf(options));
-  return run('locate', source, { queries: await copyOf(queries, source.dimension, task) }, task);
+  const args = { queries: await queriesOf(source, queries, task), options: { exact } };
+  return run('locate', source, args, task);
 }
 
 export async function nearest(
@@ -59,12 +71,7 @@ export async function nearest(
   const { k = 1 } = optionsOf(options);
   checkCount('the option k', k);
   const task = taskOptions(optionsOf(options));
-  return run(
-    'nearest',
-    source,
-    { queries: await copyOf(queries, source.dimension, task), k },
-    task,
-  );
+  return run('nearest', source, { queries: await queriesOf(source, queries, task), k }, task);
 }
 
 /** Checks a number of things, of which there is one at least. */
@@ -76,17 +83,102 @@ export async function interpolate(
   queries: Points,
   options: InterpolateOptions | undefined,
 ) {
-  const { method = 'linear' } = optionsOf(options);
-  checkOneOf('the option method', method, ['linear', 'laplace', 'sibson']);
+  const checked = checkInterpolation(options);
   const task = taskOptions(optionsOf(options));
-  const count = source.points.length / source.dimension;
-  const numbers = numbersOf('the values', values, count, 'one per point');
-  const args = { queries: await copyOf(queries, source.dimension, task), values: numbers, method };
+  const numbers = valuesOf(source, values);
+  const args = {
+    queries: await queriesOf(source, queries, task),
+    values: numbers,
+    options: checked,
+  };
   return run('interpolate', source, args, task);
 }
 
+/** Returns a copy of what says how to interpolate. */
+function checkInterpolation(options: InterpolateOptions | undefined) {
+  const { method = 'linear', outside = 'nan', duplicates = 'first', exact } = optionsOf(options);
+  const methods = ['linear', 'laplace', 'sibson', 'sibson-c1', 'clough-tocher'];
+  checkOneOf('the option method', method, methods);
+  if (typeof outside !== 'number')
+    checkOneOf('the option outside', outside, ['nan', 'nearest', 'linear', 'a number']);
+  checkOneOf('the option duplicates', duplicates, ['first', 'mean', 'error']);
+  checkBoolean('exact', exact);
+  return { method, outside, duplicates, exact };
+}
+
+/** Returns a copy of one value per point. */
+const valuesOf = ({ points, dimension }: Source, values: ArrayLike<number>) =>
+  numbersOf('the values', values, points.length / dimension, 'one per point');
+
+export async function interpolateGrid(
+  source: Source,
+  values: ArrayLike<number>,
+  options: GridOptions,
+) {
+  const { points, dimension, factors } = source;
+  const { width, height, depth, bounds } = optionsOf(options);
+  const size = dimension === 2 ? [width, height] : [width, height, depth];
+  ['width', 'height', 'depth'].slice(0, dimension).forEach((name, axis) => {
+    checkCount(`the option ${name}`, size[axis]);
+  });
+  const corners = bounds
+    ? numbersOf(
+        'the option bounds',
+        bounds,
+        2 * dimension,
+        'the lowest and the highest coordinates',
+      )
+    : boundsOf(points, dimension);
+  const grid = Float64Array.from([...(size as number[]), ...corners]);
+  if (bounds && factors)
+    for (let i = 0; i < 2 * dimension; i++) grid[dimension + i]! *= factors[i % dimension]!;
+  const args = {
+    values: valuesOf(source, values),
+    grid,
+    options: checkInterpolation(options),
+  };
+  return run('interpolateGrid', source, args, taskOptions(optionsOf(options)));
+}
+
+/** Returns the lowest and the highest coordinates; those of a unit box without points. */
+function boundsOf(points: Coordinates, dimension: number): number[] {
+  if (points.length === 0) return [0, 0, 0, 1, 1, 1].slice(3 - dimension, 3 + dimension);
+  const low = Array.from(points.subarray(0, dimension));
+  const high = [...low];
+  points.forEach((x, i) => {
+    const axis = i % dimension;
+    low[axis] = Math.min(low[axis]!, x);
+    high[axis] = Math.max(high[axis]!, x);
+  });
+  return [...low, ...high];
+}
+
+export async function interpolationWeights(
+  source: Source,
+  queries: Points,
+  options: InterpolateOptions | undefined,
+) {
+  const checked = checkInterpolation(options);
+  const task = taskOptions(optionsOf(options));
+  const args = { queries: await queriesOf(source, queries, task), options: checked };
+  return run('interpolationWeights', source, args, task);
+}
+
+export async function gradients(
+  source: Source,
+  values: ArrayLike<number>,
+  options: InterpolateOptions | undefined,
+) {
+  const args = { values: valuesOf(source, values), options: checkInterpolation(options) };
+  const found = await run('gradients', source, args, taskOptions(optionsOf(options)));
+  // Per unit of the given coordinates.
+  const { factors, dimension } = source;
+  if (factors) for (let i = 0; i < found.length; i++) found[i]! *= factors[i % dimension]!;
+  return found;
+}
+
 /** Returns a copy of so many numbers. */
-function numbersOf(what: string, values: unknown, length: number, why: string): Doubles {
+export function numbersOf(what: string, values: unknown, length: number, why: string): Doubles {
   const isArray = Array.isArray(values) || kindOf(values) !== undefined;
   const numbers = values as ArrayLike<unknown>;
   if (!isArray || numbers.length !== length) throw bad(what, `${length} numbers, ${why}`, values);
@@ -99,6 +191,22 @@ function numbersOf(what: string, values: unknown, length: number, why: string): 
   return copy;
 }
 
+export async function contours(
+  source: Source,
+  values: ArrayLike<number>,
+  levels: ArrayLike<number>,
+  options: ContourOptions | undefined,
+) {
+  const { closed = false } = optionsOf(options);
+  checkBoolean('closed', closed);
+  const args = {
+    values: valuesOf(source, values),
+    levels: numbersOf('the levels', levels, levels?.length, 'one per contour'),
+    closed,
+  };
+  return run('contours', source, args, taskOptions(optionsOf(options)));
+}
+
 const CLIPS = ['none', 'box', 'hull'];
 
 export async function voronoi(
@@ -109,26 +217,38 @@ export async function voronoi(
   const length = 2 * source.dimension;
   if (typeof clip === 'string' && !CLIPS.includes(clip))
     throw bad('the option clip', `one of ${CLIPS.join(', ')}, or ${length} numbers`, clip);
+  const task = taskOptions(optionsOf(options));
   const args =
     typeof clip === 'string'
       ? { clip, bounds: new Float64Array(0) }
-      : {
-          clip: 'bounds',
-          bounds: numbersOf('the option clip', clip, length, 'the lowest corner and the highest'),
-        };
-  return run('voronoi', source, args, taskOptions(optionsOf(options)));
+      : clip !== null && typeof clip === 'object' && 'corners' in clip
+        ? {
+            clip: 'corners',
+            bounds: Float64Array.from(await copyOf(clip.corners, source.dimension, task)),
+          }
+        : {
+            clip: 'bounds',
+            bounds: numbersOf('the option clip', clip, length, 'the lowest corner and the highest'),
+          };
+  return run('voronoi', source, args, task);
 }
 
 export async function alphaShape(
   source: Source,
   options: AlphaOptions | undefined,
 ): Promise<AlphaShape> {
-  const { alpha = 'auto', components = 1, criticalValues = false } = optionsOf(options);
+  const {
+    alpha = 'auto',
+    components = 1,
+    criticalValues = false,
+    singular = false,
+  } = optionsOf(options);
   if (alpha !== 'auto' && !(typeof alpha === 'number' && alpha >= 0))
     throw bad('the option alpha', "'auto' or a number that is not negative", alpha);
   checkCount('the option components', components);
   checkBoolean('criticalValues', criticalValues);
-  const args = { alpha: alpha === 'auto' ? undefined : alpha, components, criticalValues };
+  checkBoolean('singular', singular);
+  const args = { options: { alpha, components, criticalValues, singular } };
   return run('alphaShape', source, args, taskOptions(optionsOf(options)));
 }
 
@@ -163,9 +283,9 @@ export async function surface(source: Source, options: SurfaceOptions | undefine
   return run('surface', source, { options: given }, taskOptions({ signal, onProgress }));
 }
 
-/** The Euclidean minimum spanning tree of the vertices of a mesh. */
+/** The Euclidean minimum spanning tree of the points of a mesh; duplicates have edges of length 0. */
 export class SpanningTree {
-  /** 2 vertices per edge, the lower one first, in the order of their lengths. */
+  /** 2 points per edge, the lower one first, in the order of their lengths. */
   readonly edges: Indices;
   /** The length of each edge. */
   readonly lengths: Doubles;

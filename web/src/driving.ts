@@ -49,15 +49,16 @@ export class Driver {
         // The CPU takes over from a device that failed.
         if (carrier.failure || args.backend === 'gpu' || !GPU_ERRORS.has(error.code))
           throw { ...error, points: carrier.points };
-        left = { fallback: error.message, gpu: null, update: null };
+        const { wrongMeshes } = speed;
+        left = { fallback: error.message, gpu: null, update: null, wrongMeshes };
       } finally {
         arrayMemory.release(length, simplexBytes(mesh));
       }
     }
     if (!mesh) {
       mesh = await this.#byHelper(args, carrier, helper, of.room);
-      const { fallback, gpu, update } = { ...mesh.stats, ...left };
-      mesh.stats = { ...mesh.stats, fallback, gpu, update };
+      const { fallback, gpu, update, wrongMeshes } = { ...mesh.stats, ...left };
+      mesh.stats = { ...mesh.stats, fallback, gpu, update, wrongMeshes };
     }
     const { readyBytes } = ready;
     const stats = this.#engine.complete(mesh.stats, { info, started, readyBytes });

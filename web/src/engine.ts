@@ -26,7 +26,10 @@ export interface Kind<Glue extends AnyGlue = any> {
 
 /** What the glue of both dimensions has. */
 interface AnyGlue {
-  WasmTriangulator: new (compilesMeanwhile: boolean, tests: boolean) => { close(): Promise<void> };
+  WasmTriangulator: new (
+    compilesMeanwhile: boolean,
+    selfTest: boolean | undefined,
+  ) => { close(): Promise<void> };
   initSync(module: { module: WebAssembly.Module }): object;
 }
 
@@ -53,7 +56,7 @@ export class Engine<Glue extends AnyGlue = AnyGlue> {
   readonly #standIn: GpuStandIn | undefined;
 
   constructor(kind: Kind, makeGlue: MakeGlue<Glue>, module: WebAssembly.Module, uses: Uses) {
-    const { gpu, device } = uses;
+    const { gpu, device, selfTest } = uses;
     this.kind = kind;
     this.arrayMemory = new ArrayMemory(kind.bytesPerCoordinate);
     this.device = device;
@@ -67,7 +70,7 @@ export class Engine<Glue extends AnyGlue = AnyGlue> {
     // Outside of browsers nothing is remembered, so that everybody would wait for the test.
     this.triangulator = new this.glue.WasmTriangulator(
       COMPILES_MEANWHILE,
-      COMPILES_MEANWHILE && !device,
+      selfTest ?? (COMPILES_MEANWHILE && !device ? undefined : false),
     ) as typeof this.triangulator;
     this.speed = new Speed(kind.dimension, kind.speed(this.triangulator));
     this.choice = new BackendChoice(this.#gpu, this.memory);

@@ -20,6 +20,7 @@ export interface HostOptions {
   gpu?: object | undefined;
   device?: Device | undefined;
   worker?: boolean | undefined;
+  selfTest?: boolean | undefined;
 }
 
 /** What the arguments of a task were made of. */
@@ -32,6 +33,7 @@ export interface Sending {
 export class Host {
   readonly #gpu: object | undefined;
   readonly #device: Device | undefined;
+  readonly #selfTest: boolean | undefined;
   /** The instances that drive the device in this thread, while a worker computes. */
   readonly #drivers = new Map<ModuleName, Core>();
   readonly #connections = new Map<ModuleName, Promise<Connection>>();
@@ -42,9 +44,10 @@ export class Host {
   #last: Promise<unknown> = Promise.resolve();
   #disposed = false;
 
-  constructor({ gpu, device, worker }: HostOptions = {}) {
+  constructor({ gpu, device, worker, selfTest }: HostOptions = {}) {
     this.#gpu = device ? gpuOf(device) : gpu;
     this.#device = device;
+    this.#selfTest = selfTest;
     if (gpu) this.#noWorker = 'a GPU object cannot be sent to another thread';
     else if (worker === false) this.#noWorker = 'the option worker is false';
   }
@@ -114,7 +117,7 @@ export class Host {
   async #driver({ wasm, code }: ModuleAsset): Promise<Core> {
     const { value } = await compiled(wasm);
     const { openCore } = await loadCode(code);
-    const uses = { gpu: this.#gpu, device: this.#device };
+    const uses = { gpu: this.#gpu, device: this.#device, selfTest: this.#selfTest };
     const driver = this.#drivers.get(wasm.name) ?? openCore(value, uses);
     this.#drivers.set(wasm.name, driver);
     return driver;
@@ -204,7 +207,7 @@ export class Host {
     module.catch(() => {});
     const thread = await startWorker(worker);
     try {
-      return workerConnection(thread, await module);
+      return workerConnection(thread, await module, this.#selfTest);
     } catch (error) {
       thread.value.terminate();
       throw error;
@@ -222,7 +225,7 @@ export class Host {
     }
     const { openCore } = await loadCode(asset.code);
     const { value, whyInlined } = await compiled(asset.wasm);
-    const core = openCore(value, { gpu: this.#gpu });
+    const core = openCore(value, { gpu: this.#gpu, selfTest: this.#selfTest });
     return callerConnection(core, { whyThread: this.#noWorker, whyInlined });
   }
 }

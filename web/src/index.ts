@@ -10,10 +10,21 @@ export type {
   AlphaOptions,
   AlphaShape,
   Bounds,
+  Contour2,
+  Contour3,
+  ContourOptions,
   Geometry,
+  GridOptions,
+  Interpolated,
   InterpolateOptions,
   InterpolationMethod,
+  InterpolationWeights,
+  LocateOptions,
+  LocationsOnSphere,
   NearestOptions,
+  SphereArrays,
+  SphereEdges,
+  SphereVoronoiArrays,
   Surface2,
   SurfaceArrays,
   SurfaceOptions,
@@ -37,6 +48,7 @@ export {
   ResidentMesh2,
   ResidentMesh3,
 } from './resident.js';
+export { delaunaySphere, SphereMesh, type SphereOptions, SphereVoronoi } from './sphere.js';
 export type { ExactCounts, GpuStats, Round, SplayStats, UpdateStats } from './stats.js';
 export { delaunay2dSync, delaunay3dSync, load2d, load3d } from './sync.js';
 export {

@@ -1,13 +1,21 @@
-import type { SurfaceOptions, VoronoiArrays, VoronoiOptions } from './answers.js';
+import type {
+  Contour3,
+  ContourOptions,
+  LocateOptions,
+  SurfaceOptions,
+  VoronoiArrays,
+  VoronoiOptions,
+} from './answers.js';
 import type { Bytes, Coordinates, Indices, SignedIndices } from './arrays.js';
 import { Mesh } from './changing.js';
-import { locate, type Source, Surface3, surface, voronoi } from './derived.js';
+import { contours, locate, type Source, Surface3, surface, voronoi } from './derived.js';
 import { GdelError } from './errors.js';
 import type { TriangleFormat } from './files.js';
 import type { Done } from './protocol.js';
 import type { Update } from './run.js';
 import { write } from './tools.js';
 import type { Output, Points, TaskOptions, Trace } from './types.js';
+import { checkUnweighted } from './weights.js';
 
 /** Where points are in a 3D mesh. */
 export interface Locations3 {
@@ -21,6 +29,8 @@ export interface Locations3 {
    * hull and sees the query; −1 inside, and everywhere if the points are flat.
    */
   facets: SignedIndices;
+  /** How many queries are outside. */
+  outside: number;
 }
 
 /**
@@ -37,7 +47,11 @@ export class Mesh3 extends Mesh {
    * on the hull.
    */
   declare readonly neighbors: SignedIndices;
-  /** Three vertices per triangle of the convex hull, counter-clockwise as seen from outside. */
+  /**
+   * Three vertices per triangle of the convex hull, counter-clockwise as seen from outside. Empty for points
+   * in a plane: files have their polygon, triangulated, from both sides, and so has the `surface` of
+   * {@link alphaShape} for `alpha: Infinity`.
+   */
   declare readonly hull: Indices;
   /**
    * One per point: −1, or the lowest index of a point with the same coordinates, which represents
@@ -64,22 +78,44 @@ export class Mesh3 extends Mesh {
   }
 
   /** @internal */
-  _take({ result, place }: Done<'delaunay3d'>): void {
-    Object.assign(this, { trace: undefined }, result, { stats: { ...result.stats, ...place } });
+  _take({ result, place, weights = null }: Done<'delaunay3d'>): void {
+    const hidden = result.hidden ?? new Uint32Array(0);
+    Object.assign(this, { trace: undefined, weights }, result, {
+      hidden,
+      stats: { ...result.stats, ...place },
+    });
   }
 
   /**
    * Returns the tetrahedron that contains each query point, exactly, and for queries outside the hull a
-   * facet of it.
+   * facet of it. What is outside by no more than rounding counts as inside: see {@link LocateOptions}.
    *
    * @throws {@link GdelError} `NOT_FINITE` with the `index` of a query, `BAD_INPUT`.
    */
-  async locate(queries: Points, options?: TaskOptions): Promise<Locations3> {
-    const { simplices, facets } = await locate(this._source(), queries, options);
-    return { tetrahedra: simplices, facets };
+  async locate(queries: Points, options?: LocateOptions): Promise<Locations3> {
+    const { simplices, facets, outside } = await locate(this._source(), queries, options);
+    return { tetrahedra: simplices, facets, outside };
   }
 
-  /** Returns the Voronoi diagram of the vertices. */
+  /**
+   * Returns for each level the isosurface of values that are linear within each tetrahedron.
+   *
+   * @param values One number per point of the mesh. Where one is not finite, the mesh has a hole.
+   * @throws {@link GdelError} `BAD_INPUT`.
+   */
+  async contours(
+    values: ArrayLike<number>,
+    levels: ArrayLike<number>,
+    options?: ContourOptions,
+  ): Promise<Contour3[]> {
+    return contours(this._source(), values, levels, options);
+  }
+
+  /**
+   * Returns the Voronoi diagram of the vertices. The cells of coplanar points are polygons in their plane,
+   * with edges as facets, and those of collinear points segments, with ends as facets, unless they are
+   * clipped to a box that has an inside.
+   */
   async voronoi(options?: VoronoiOptions): Promise<VoronoiArrays> {
     return voronoi(this._source(), options);
   }
@@ -126,14 +162,17 @@ export class Mesh3 extends Mesh {
 
   /** @internal */
   _source(): Source {
+    checkUnweighted(this);
     this.#check(['neighbors', 'duplicateOf'], 'this needs');
-    const { tetrahedra, neighbors, duplicateOf, points } = this;
-    return { dimension: 3, points, mesh: { tetrahedra, neighbors, duplicateOf } };
+    const { tetrahedra, neighbors, duplicateOf, points, factors } = this;
+    return { dimension: 3, points, factors, mesh: { tetrahedra, neighbors, duplicateOf } };
   }
 
   /** @internal */
   async _write(format: TriangleFormat, options: TaskOptions | undefined): Promise<Bytes> {
-    return (await this.#files(format, ['hull'], options))[format]!;
+    const isFlat = this.dimension === 2;
+    const hull = isFlat ? (await this.alphaShape({ alpha: Infinity })).surface : this.hull;
+    return (await this.#files(format, ['hull'], options, hull))[format]!;
   }
 
   /** Copies only what the format needs to the writer. */
@@ -141,12 +180,12 @@ export class Mesh3 extends Mesh {
     format: string,
     needs: readonly Output[],
     options: TaskOptions | undefined,
+    hull?: Indices,
   ): Promise<Record<string, Bytes>> {
     this.#check(needs, `${format} files need`);
-    const isHull = needs.includes('hull');
     const mesh = {
-      tetrahedra: isHull ? new Uint32Array(0) : this.tetrahedra,
-      hull: isHull ? this.hull : undefined,
+      tetrahedra: hull ? new Uint32Array(0) : this.tetrahedra,
+      hull,
       neighbors: needs.includes('neighbors') ? this.neighbors : undefined,
     };
     return write('write', { points: this.points, mesh, format }, options);

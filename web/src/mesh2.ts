@@ -1,14 +1,22 @@
-import type { Surface2, SurfaceOptions, VoronoiOptions } from './answers.js';
+import type {
+  Contour2,
+  ContourOptions,
+  LocateOptions,
+  Surface2,
+  SurfaceOptions,
+  VoronoiOptions,
+} from './answers.js';
 import type { Bytes, Coordinates, Indices, SignedIndices } from './arrays.js';
 import { Mesh } from './changing.js';
-import { locate, type Source, surface, voronoi } from './derived.js';
+import { contours, locate, type Source, surface, voronoi } from './derived.js';
 import type { TriangleFormat } from './files.js';
-import { bad, optionsOf } from './options.js';
-import { findNearest, Rings, stripes } from './plane.js';
+import { bad } from './options.js';
+import { findNearest, Rings } from './plane.js';
 import type { Done } from './protocol.js';
 import { write } from './tools.js';
 import type { Points, TaskOptions } from './types.js';
 import { Voronoi2 } from './voronoi2.js';
+import { checkUnweighted } from './weights.js';
 
 /** Where points are in a 2D mesh. */
 export interface Locations2 {
@@ -22,6 +30,8 @@ export interface Locations2 {
    * if the points are collinear.
    */
   halfedges: SignedIndices;
+  /** How many queries are outside. */
+  outside: number;
 }
 
 /**
@@ -63,31 +73,41 @@ export class Mesh2 extends Mesh {
   #rings: [Indices, Rings] | undefined;
 
   /** @internal */
-  _take({ result, place }: Done<'delaunay2d'>): void {
+  _take({ result, place, weights = null }: Done<'delaunay2d'>): void {
     const { points: coords, stats, ...arrays } = result;
-    Object.assign(this, arrays, { coords, stats: { ...stats, ...place } });
+    const hidden = result.hidden ?? new Uint32Array(0);
+    Object.assign(this, arrays, { coords, weights, hidden, stats: { ...stats, ...place } });
   }
 
   /**
-   * Returns the triangle that contains each query point, exactly, and for queries outside the hull a
-   * facet of it.
+   * Returns the triangle that contains each query point, exactly, and for queries outside the hull an
+   * edge of it. What is outside by no more than rounding counts as inside: see {@link LocateOptions}.
    *
    * @throws {@link GdelError} `NOT_FINITE` with the `index` of a query, `BAD_INPUT`.
    */
-  async locate(queries: Points, options?: TaskOptions): Promise<Locations2> {
-    const { simplices, facets } = await locate(this._source(), queries, options);
-    return { triangles: simplices, halfedges: facets };
+  async locate(queries: Points, options?: LocateOptions): Promise<Locations2> {
+    const { simplices, facets, outside } = await locate(this._source(), queries, options);
+    return { triangles: simplices, halfedges: facets, outside };
   }
 
   /**
-   * Returns the Voronoi diagram of the vertices. Collinear points have cells if these are clipped to
-   * a box that is given.
+   * Returns for each level the contour lines of values that are linear within each triangle. Else as
+   * {@link Mesh3.contours}.
+   */
+  async contours(
+    values: ArrayLike<number>,
+    levels: ArrayLike<number>,
+    options?: ContourOptions,
+  ): Promise<Contour2[]> {
+    return contours(this._source(), values, levels, options);
+  }
+
+  /**
+   * Returns the Voronoi diagram of the vertices. The cells of collinear points are segments of their line,
+   * unless they are clipped to a box that has an inside.
    */
   async voronoi(options?: VoronoiOptions): Promise<Voronoi2> {
-    let arrays = await voronoi(this._source(), options);
-    const { clip } = optionsOf(options);
-    if (this.triangles.length === 0 && clip !== undefined && typeof clip !== 'string')
-      arrays = stripes(this, [clip[0]!, clip[1]!, clip[2]!, clip[3]!]);
+    const arrays = await voronoi(this._source(), options);
     const find = (x: number, y: number, start: number) => this.find(x, y, start);
     return new Voronoi2(arrays, this.triangles.length / 3, this.duplicateOf, find);
   }
@@ -100,6 +120,7 @@ export class Mesh2 extends Mesh {
    * @param start A point near it, where the search begins.
    */
   find(x: number, y: number, start = 0): number {
+    checkUnweighted(this);
     const { length } = this.duplicateOf;
     if (!Number.isInteger(start) || start < 0 || (start > 0 && start >= length))
       throw bad('the start', 'the index of a point', start);
@@ -107,7 +128,8 @@ export class Mesh2 extends Mesh {
     const first = this.duplicateOf[start]!;
     // One that was removed is nowhere.
     const vertex = first < 0 ? start : first === start ? this.hull[0]! : first;
-    return findNearest(this, this.#ringsNow(), [x, y], vertex);
+    const [fx, fy] = this.factors ?? [1, 1];
+    return findNearest(this, this.#ringsNow(), [x * fx!, y * fy!], vertex);
   }
 
   /** Returns the points that point `i` has an edge to; none for a duplicate. */
@@ -149,8 +171,9 @@ export class Mesh2 extends Mesh {
 
   /** @internal */
   _source(): Source {
-    const { triangles, halfedges, duplicateOf, coords: points } = this;
-    return { dimension: 2, points, mesh: { triangles, halfedges, duplicateOf } };
+    checkUnweighted(this);
+    const { triangles, halfedges, duplicateOf, coords: points, factors } = this;
+    return { dimension: 2, points, factors, mesh: { triangles, halfedges, duplicateOf } };
   }
 
   #ringsNow(): Rings {

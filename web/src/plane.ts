@@ -1,11 +1,9 @@
-// Questions about a 2D mesh that are answered at once, in the calling thread.
+// Questions about triangles in a plane or on a sphere that are answered at once, in the calling thread.
 
-import type { VoronoiArrays } from './answers.js';
 import type { Coordinates, SignedIndices } from './arrays.js';
 
 /** What the questions are about. */
 interface Triangles {
-  coords: Coordinates;
   triangles: ArrayLike<number>;
   halfedges: ArrayLike<number>;
   hull: ArrayLike<number>;
@@ -68,17 +66,12 @@ export class Rings {
  * together: so a walk from `start` ends at the right one.
  */
 export function findNearest(
-  { coords }: Triangles,
+  { coords }: { coords: Coordinates },
   rings: Rings,
-  query: Point,
+  query: readonly number[],
   start: number,
 ): number {
-  const nearer = (a: number, b: number) =>
-    compareDistances(
-      query,
-      [coords[2 * a]!, coords[2 * a + 1]!],
-      [coords[2 * b]!, coords[2 * b + 1]!],
-    );
+  const nearer = (a: number, b: number) => compareDistances(query, coords, a, b);
   let best = start;
   for (;;) {
     let following = best;
@@ -96,21 +89,31 @@ export function findNearest(
   return lowest;
 }
 
-type Point = readonly [number, number];
-
-/** Returns the sign of |p − q|² − |p − r|², exactly, for all finite coordinates. */
-function compareDistances(p: Point, q: Point, r: Point): number {
-  const squared = (o: Point) => (p[0] - o[0]) ** 2 + (p[1] - o[1]) ** 2;
-  const [one, other] = [squared(q), squared(r)];
+/**
+ * Returns the sign of the difference of the squared distances of points `a` and `b` from a query, exactly, for
+ * all finite coordinates.
+ */
+function compareDistances(
+  query: readonly number[],
+  coords: Coordinates,
+  a: number,
+  b: number,
+): number {
+  const { length } = query;
+  const squared = (v: number) =>
+    query.reduce((sum, x, axis) => sum + (x - coords[length * v + axis]!) ** 2, 0);
+  const [one, other] = [squared(a), squared(b)];
   // Each has a relative error below 2⁻⁵⁰, where nothing overflows or underflows.
   const difference = one - other;
   const sum = one + other;
   if (sum > 1e-280 && sum < 1e300 && Math.abs(difference) > sum * 2 ** -49)
     return Math.sign(difference);
-  const [px, py, qx, qy, rx, ry] = integers([...p, ...q, ...r]);
-  const exactly = (x: bigint, y: bigint) => (px! - x) ** 2n + (py! - y) ** 2n;
-  const [a, b] = [exactly(qx!, qy!), exactly(rx!, ry!)];
-  return a < b ? -1 : a > b ? 1 : 0;
+  const own = (v: number) => coords.subarray(length * v, length * v + length);
+  const all = integers([...query, ...own(a), ...own(b)]);
+  const exactly = (first: number) =>
+    query.reduce((sum, _, axis) => sum + (all[axis]! - all[first + axis]!) ** 2n, 0n);
+  const [p, q] = [exactly(length), exactly(2 * length)];
+  return p < q ? -1 : p > q ? 1 : 0;
 }
 
 /** Returns numbers as multiples of one power of two. */
@@ -127,95 +130,4 @@ function integers(numbers: number[]): bigint[] {
   return parts.map(({ mantissa, exponent }) =>
     mantissa === 0n ? 0n : mantissa << BigInt(exponent - lowest),
   );
-}
-
-/**
- * Returns the Voronoi cells of collinear points within a box: it is cut in the middle between each
- * point and the next.
- */
-export function stripes(
-  { coords, hull, duplicateOf }: Triangles,
-  [xmin, ymin, xmax, ymax]: readonly [number, number, number, number],
-): VoronoiArrays {
-  const count = duplicateOf.length;
-  const vertices: number[] = [];
-  const facets: number[] = [];
-  const neighbors: number[] = [];
-  const areas: number[] = [];
-  const polygons = new Map<number, Corner[]>();
-  for (let place = 0; place < hull.length; place++) {
-    const i = hull[place]!;
-    // Counter-clockwise where y points down, as the triangles are.
-    let polygon: Corner[] = [
-      { x: xmin, y: ymin, beyond: -1 },
-      { x: xmin, y: ymax, beyond: -1 },
-      { x: xmax, y: ymax, beyond: -1 },
-      { x: xmax, y: ymin, beyond: -1 },
-    ];
-    for (const j of [hull[place - 1], hull[place + 1]])
-      if (j !== undefined) polygon = nearerHalf(polygon, coords, i, j);
-    polygons.set(i, polygon);
-  }
-  const cells = new Uint32Array(count + 1);
-  const volumes = new Float64Array(count);
-  const centroids = new Float64Array(2 * count).fill(Number.NaN);
-  for (let i = 0; i < count; i++) {
-    const polygon = polygons.get(i) ?? [];
-    const first = vertices.length / 2;
-    const [ox, oy] = [coords[2 * i]!, coords[2 * i + 1]!];
-    let [twice, mx, my] = [0, 0, 0];
-    polygon.forEach(({ x, y, beyond }, k) => {
-      const to = polygon[(k + 1) % polygon.length]!;
-      vertices.push(x, y);
-      facets.push(first + k, first + ((k + 1) % polygon.length));
-      neighbors.push(beyond);
-      areas.push(Math.hypot(to.x - x, to.y - y));
-      // The triangle with the point itself.
-      const cross = (to.x - ox) * (y - oy) - (to.y - oy) * (x - ox);
-      twice += cross;
-      mx += cross * (x + to.x - 2 * ox);
-      my += cross * (y + to.y - 2 * oy);
-    });
-    cells[i + 1] = neighbors.length;
-    volumes[i] = twice / 2;
-    if (twice > 0) {
-      centroids[2 * i] = ox + mx / (3 * twice);
-      centroids[2 * i + 1] = oy + my / (3 * twice);
-    }
-  }
-  return {
-    vertices: Float64Array.from(vertices),
-    facetOffsets: Uint32Array.from({ length: neighbors.length + 1 }, (_, f) => 2 * f),
-    facets: Uint32Array.from(facets),
-    neighbors: Int32Array.from(neighbors),
-    areas: Float64Array.from(areas),
-    cells,
-    volumes,
-    centroids,
-  };
-}
-
-/** A corner of a polygon, and what is beyond the edge that starts there: a point, or −1. */
-interface Corner {
-  x: number;
-  y: number;
-  beyond: number;
-}
-
-/** Returns the part of a polygon that is nearer to point `i` than to point `j`. */
-function nearerHalf(polygon: Corner[], coords: Coordinates, i: number, j: number): Corner[] {
-  const [px, py, qx, qy] = [coords[2 * i]!, coords[2 * i + 1]!, coords[2 * j]!, coords[2 * j + 1]!];
-  const side = ({ x, y }: Corner) =>
-    (x - px - (qx - px) / 2) * (qx - px) + (y - py - (qy - py) / 2) * (qy - py);
-  const kept: Corner[] = [];
-  polygon.forEach((from, k) => {
-    const to = polygon[(k + 1) % polygon.length]!;
-    const [s, t] = [side(from), side(to)];
-    if (s < 0) kept.push(from);
-    if (s < 0 === t < 0) return;
-    const part = s / (s - t);
-    const at = { x: from.x + part * (to.x - from.x), y: from.y + part * (to.y - from.y) };
-    kept.push({ ...at, beyond: s < 0 ? j : from.beyond });
-  });
-  return kept;
 }

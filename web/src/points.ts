@@ -62,6 +62,33 @@ export function copyOf(
   return coordinatesInSlices(points, conversion, () => throwIfAborted(signal));
 }
 
+/** Returns the factors of the axes that an option asks for. */
+export function factorsOf(
+  rescale: unknown,
+  points: Coordinates,
+  dimension: number,
+): readonly number[] | undefined {
+  if (rescale === undefined || rescale === false) return undefined;
+  if (rescale === true) {
+    return Array.from({ length: dimension }, (_, axis) => {
+      let [low, high] = [Infinity, -Infinity];
+      for (let i = axis; i < points.length; i += dimension) {
+        low = Math.min(low, points[i]!);
+        high = Math.max(high, points[i]!);
+      }
+      return high > low ? 1 / (high - low) : 1;
+    });
+  }
+  const isFactor = (x: unknown) => typeof x === 'number' && x > 0 && x < Infinity;
+  if (!Array.isArray(rescale) || rescale.length !== dimension || !rescale.every(isFactor))
+    throw bad('the option rescale', `true, false or ${dimension} positive numbers`, rescale);
+  return [...rescale];
+}
+
+/** Returns points, multiplied by factors if there are any. */
+export const scaled = (points: Coordinates, factors: readonly number[] | undefined): Coordinates =>
+  factors ? Float64Array.from(points, (x, i) => x * factors[i % factors.length]!) : points;
+
 /** Converts in steps, between which other events can be handled. */
 type Steps = Generator<void, Coordinates, void>;
 

@@ -1,8 +1,18 @@
 // The messages between the page and the worker.
 
 import type {
+  AlphaOptions,
   AlphaShape,
+  Contour2,
+  Contour3,
   Geometry,
+  Interpolated,
+  InterpolateOptions,
+  InterpolationWeights,
+  LocateOptions,
+  LocationsOnSphere,
+  SphereArrays,
+  SphereVoronoiArrays,
   SurfaceArrays,
   SurfaceOptions,
   Topology,
@@ -46,6 +56,13 @@ interface DerivedArgs {
   dimension: 2 | 3;
   points: Coordinates;
   mesh: DerivedMesh;
+}
+
+/** A sphere to ask something. */
+export interface SphereArgs {
+  points: Coordinates;
+  triangles: Indices;
+  duplicateOf: SignedIndices;
 }
 
 /** The mesh of points before they moved. */
@@ -105,6 +122,8 @@ export interface Tasks {
       hull: Indices;
       duplicateOf: SignedIndices;
       dimension: 0 | 1 | 2 | 3;
+      /** The hidden points, if there are weights that differ. */
+      hidden?: Indices;
       trace?: Trace;
       /** Instead of the arrays, if it was requested: the mesh on the device. */
       resident?: MadeResident;
@@ -133,6 +152,8 @@ export interface Tasks {
       hull: Indices;
       duplicateOf: SignedIndices;
       dimension: 0 | 1 | 2;
+      /** The hidden points, if there are weights that differ. */
+      hidden?: Indices;
       /** Instead of the arrays, if it was requested. */
       resident?: MadeResident;
       key?: number;
@@ -155,6 +176,15 @@ export interface Tasks {
     } & Partial<Edit>;
     result: Tasks['delaunay3d' | 'delaunay2d']['result'] & Kept;
   };
+  regular: {
+    args: {
+      dimension: 2 | 3;
+      points: Coordinates;
+      weights: Doubles;
+      outputs: readonly Output[];
+    };
+    result: Tasks['delaunay3d' | 'delaunay2d']['result'];
+  };
   generate: { args: { kind: string; count: number; seed: bigint }; result: Doubles };
   readPoints: { args: { bytes: Uint8Array; extension: string }; result: PointCloud };
   write: {
@@ -169,17 +199,33 @@ export interface Tasks {
   };
   verify2d: { args: { points: Coordinates; mesh: MeshView2 }; result: Report2 };
   locate: {
-    args: DerivedArgs & { queries: Coordinates };
-    result: { simplices: SignedIndices; facets: SignedIndices };
+    args: DerivedArgs & { queries: Coordinates; options: LocateOptions };
+    result: { simplices: SignedIndices; facets: SignedIndices; outside: number };
   };
   nearest: { args: DerivedArgs & { queries: Coordinates; k: number }; result: SignedIndices };
   interpolate: {
-    args: DerivedArgs & { queries: Coordinates; values: Doubles; method: string };
+    args: DerivedArgs & { queries: Coordinates; values: Doubles; options: InterpolateOptions };
+    result: Interpolated;
+  };
+  interpolateGrid: {
+    args: DerivedArgs & { values: Doubles; grid: Doubles; options: InterpolateOptions };
+    result: Interpolated;
+  };
+  interpolationWeights: {
+    args: DerivedArgs & { queries: Coordinates; options: InterpolateOptions };
+    result: InterpolationWeights;
+  };
+  gradients: {
+    args: DerivedArgs & { values: Doubles; options: InterpolateOptions };
     result: Doubles;
+  };
+  contours: {
+    args: DerivedArgs & { values: Doubles; levels: Doubles; closed: boolean };
+    result: (Contour2 & Contour3)[];
   };
   voronoi: { args: DerivedArgs & { clip: string; bounds: Doubles }; result: VoronoiArrays };
   alphaShape: {
-    args: DerivedArgs & { alpha: number | undefined; components: number; criticalValues: boolean };
+    args: DerivedArgs & { options: AlphaOptions };
     result: AlphaShape;
   };
   surface: {
@@ -189,6 +235,17 @@ export interface Tasks {
   spanningTree: { args: DerivedArgs; result: { edges: Indices; lengths: Doubles } };
   topology: { args: DerivedArgs; result: Topology };
   geometry: { args: DerivedArgs; result: Geometry };
+  /** Returns the points of the unit sphere for longitudes and latitudes. */
+  onSphere: { args: { places: Coordinates }; result: Doubles };
+  /** Makes a sphere of the hull of its points. */
+  sphere: { args: SphereArgs; result: SphereArrays };
+  sphereNearest: { args: SphereArgs & { queries: Coordinates }; result: SignedIndices };
+  sphereLocate: { args: SphereArgs & { queries: Coordinates }; result: LocationsOnSphere };
+  sphereInterpolate: {
+    args: SphereArgs & { queries: Coordinates; values: Doubles };
+    result: Interpolated;
+  };
+  sphereVoronoi: { args: SphereArgs; result: SphereVoronoiArrays };
 }
 
 export type TaskName = keyof Tasks;
@@ -202,6 +259,10 @@ export interface Done<T extends TaskName> {
   place: Place;
   /** Frees a mesh that stays on the caller's device. */
   free?(key: number): void;
+  /** By which the points were multiplied, one per axis. */
+  factors?: readonly number[] | undefined;
+  /** The weights of the points, unless they are equal. */
+  weights?: Doubles | null;
 }
 
 /** A worker that helps a thread which drives a device: it has a module of the same name. */
@@ -222,7 +283,7 @@ export interface Control {
 }
 
 export type ToWorker =
-  | { type: 'load'; module: WebAssembly.Module }
+  | { type: 'load'; module: WebAssembly.Module; selfTest: boolean | undefined }
   | {
       type: 'run';
       id: number;

@@ -39,8 +39,12 @@ type Answer =
   | 'locate'
   | 'nearest'
   | 'interpolate'
+  | 'interpolateGrid'
+  | 'interpolationWeights'
+  | 'gradients'
   | 'topology'
   | 'geometry'
+  | 'contours'
   | 'voronoi'
   | 'alphaShape'
   | 'surface'
@@ -182,6 +186,21 @@ export class ResidentMesh<Arrays, Mesh extends Mesh2 | Mesh3> {
     return this.#ask('interpolate', args);
   }
 
+  /** Does the same as {@link Mesh3.interpolateGrid}. */
+  interpolateGrid(...args: Parameters<Mesh['interpolateGrid']>) {
+    return this.#ask('interpolateGrid', args);
+  }
+
+  /** Does the same as {@link Mesh3.interpolationWeights}. */
+  interpolationWeights(...args: Parameters<Mesh['interpolationWeights']>) {
+    return this.#ask('interpolationWeights', args);
+  }
+
+  /** Does the same as {@link Mesh3.gradients}. */
+  gradients(...args: Parameters<Mesh['gradients']>) {
+    return this.#ask('gradients', args);
+  }
+
   /** Does the same as {@link Mesh3.topology}. */
   topology(...args: Parameters<Mesh['topology']>) {
     return this.#ask('topology', args);
@@ -190,6 +209,11 @@ export class ResidentMesh<Arrays, Mesh extends Mesh2 | Mesh3> {
   /** Does the same as {@link Mesh3.geometry}. */
   geometry(...args: Parameters<Mesh['geometry']>) {
     return this.#ask('geometry', args);
+  }
+
+  /** Does the same as {@link Mesh3.contours} or {@link Mesh2.contours}. */
+  contours(...args: Parameters<Mesh['contours']>) {
+    return this.#ask('contours', args);
   }
 
   /** Does the same as {@link Mesh3.voronoi} or {@link Mesh2.voronoi}. */

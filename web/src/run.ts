@@ -1,12 +1,14 @@
 // Runs on points: triangulations from scratch, and updates of meshes whose points have moved.
 
 import { module2d, module3d, moduleEdit } from '#assets';
+import type { Doubles } from './arrays.js';
 import type { Device } from './device.js';
 import { GdelError } from './errors.js';
 import { bytesNow, type Held, isBuffer } from './held.js';
 import { Host, type Sending } from './host.js';
 import { memoryOf } from './memory.js';
 import {
+  bad,
   checkArrays,
   checkBoolean,
   checkFunction,
@@ -15,7 +17,7 @@ import {
   optionsOf,
   taskOptions,
 } from './options.js';
-import { coordinatesInSlices } from './points.js';
+import { coordinatesInSlices, factorsOf, scaled } from './points.js';
 import type { Done, Edit, MovedMesh, Task, Tasks } from './protocol.js';
 import type { ModuleAsset } from './runtime.js';
 import type { UpdateStats } from './stats.js';
@@ -29,6 +31,7 @@ import type {
   TaskOptions,
   UpdateOptions,
 } from './types.js';
+import { weightsOf } from './weights.js';
 
 export const BACKENDS: readonly Backend[] = ['auto', 'gpu', 'cpu'];
 
@@ -79,17 +82,38 @@ export async function triangulate<T extends Task>(
   options: AnyOptions | undefined,
   outputs: readonly Output[] = [],
 ): Promise<Done<T>> {
-  return start(maker, kind, await prepare(maker, kind, points, options), { outputs });
+  const job = await prepare(maker, kind, points, options);
+  const { factors, weights } = job;
+  if (!weights) return { ...(await start(maker, kind, job, { outputs })), factors };
+  const { dimension } = kind;
+  const { points: coordinates, backend } = job.args;
+  const args = { dimension, points: coordinates, weights, outputs };
+  const { result, ...made } = await maker.host.run(
+    moduleEdit,
+    'regular',
+    args,
+    job.sending,
+    job.options,
+  );
+  if (backend !== 'cpu')
+    result.stats.fallback = 'the points are weighted, which only the CPU takes';
+  // Equal weights have no effect.
+  const done = { result, ...made, weights: result.hidden ? weights : null };
+  return done as unknown as Done<T>;
 }
 
 /** Makes a mesh of points that have moved, or are new, from the mesh before and its statistics. */
-export type Update<T extends Task> = (
-  points: unknown,
-  options: UpdateOptions | undefined,
-  moved: MovedMesh | Held,
-  stats: Stats,
-  edit?: Edit,
-) => Promise<Done<T>>;
+export type Update<T extends Task> = {
+  (
+    points: unknown,
+    options: UpdateOptions | undefined,
+    moved: MovedMesh | Held,
+    stats: Stats,
+    edit?: Edit,
+  ): Promise<Done<T>>;
+  /** By which all points are multiplied, one per axis. */
+  factors?: readonly number[] | undefined;
+};
 
 /** The statistics of an update from scratch, since the mesh is not on the GPU. */
 const NOT_RESIDENT: UpdateStats = {
@@ -113,11 +137,15 @@ export function updating<T extends Task>(
   kind: Kind<T>,
   made: AnyOptions | undefined,
   outputs: readonly Output[] = [],
+  factors?: readonly number[],
 ): Update<T> {
   const { backend, resident } = optionsOf(made);
   let key = 0;
-  return async (points, given, moved, stats, edit) => {
-    const all = { ...optionsOf(given), backend, resident, reuse: undefined };
+  const update: Update<T> = async (points, given, moved, stats, edit) => {
+    const { weights, radii } = optionsOf(given) as RunOptions;
+    if (weights ?? radii)
+      throw new GdelError('BAD_INPUT', 'changes of a mesh take no weights: triangulate anew');
+    const all = { ...optionsOf(given), backend, resident, reuse: undefined, rescale: factors };
     if (resident) {
       const job = await prepare(maker, kind, points, all);
       const done = await start(maker, kind, job, { outputs, moved: (moved as Held).resident.key });
@@ -148,6 +176,8 @@ export function updating<T extends Task>(
     key = done.result.key ?? 0;
     return done;
   };
+  update.factors = factors;
+  return update;
 }
 
 /** A run whose arguments are checked. */
@@ -155,6 +185,9 @@ interface Job {
   args: Tasks['delaunay2d']['args'];
   sending: Sending;
   options: TaskOptions;
+  /** By which the points were multiplied. */
+  factors: readonly number[] | undefined;
+  weights: Doubles | undefined;
 }
 
 /** The last key of a mesh: meshes of instances that were replaced have keys of their own, too. */
@@ -181,7 +214,7 @@ async function prepare(
   const checked = optionsOf(options);
   const { backend = defaultBackend } = checked;
   let { transfer = false } = checked;
-  const { resident = false, reuse } = checked;
+  const { resident = false, reuse, rescale } = checked;
   const task = taskOptions(checked);
   throwIfAborted(task.signal);
   checkOneOf('backend', backend, BACKENDS);
@@ -201,11 +234,17 @@ async function prepare(
     points = new Float32Array(buffer);
     transfer = true;
   }
-  const coordinates = await coordinatesInSlices(points, { dimension, transfer, point }, () =>
+  transfer &&= !rescale;
+  const given = await coordinatesInSlices(points, { dimension, transfer, point }, () =>
     throwIfAborted(task.signal),
   );
+  const factors = factorsOf(rescale, given, dimension);
+  const coordinates = scaled(given, factors);
   const spare = resident ? [] : memoryOf(arrays);
   const sending: Sending = { transfer: [coordinates.buffer, ...spare], isGiven: transfer };
+  const weights = weightsOf(checked, Math.floor(coordinates.length / dimension));
+  if (weights && resident) throw bad('the option resident', 'left out beside weights', resident);
+  if (weights && rescale) throw bad('the option rescale', 'left out beside weights', rescale);
   const args = { points: coordinates, backend, resident, spare, newKey: nextKey() };
-  return { args, sending, options: task };
+  return { args, sending, options: task, factors, weights };
 }

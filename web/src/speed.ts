@@ -62,11 +62,16 @@ export class Speed {
     this.#kept = this.#of.known();
   }
 
+  /** How many meshes of the device have failed a check. */
+  get wrongMeshes(): number {
+    return this.#of.known()[0]! >> 1;
+  }
+
   /** Keeps what is known now, if a run has told much. */
   keep(): void {
     if (this.#name === undefined) return;
     const known = this.#of.known();
-    // The first word says whether the device has passed its test.
+    // The first word says whether the device has passed its test, and how many meshes were wrong.
     const isOld = (word: number, i: number) =>
       i > 0 ? word > 0.9 * (this.#kept[i] ?? Infinity) : word === this.#kept[0];
     if (known.every(isOld)) return;

@@ -22,6 +22,11 @@ export interface Stats {
   splay: SplayStats | null;
   /** What `Triangulator::update`, `insert` or `remove` did, if that made the mesh. */
   update: UpdateStats | null;
+  /**
+   * How many meshes of the GPU, if it was considered, have failed a check so far, each of which was
+   * an error or left to the CPU; earlier processes are included where they have kept that.
+   */
+  wrongMeshes: number;
 }
 
 /**
@@ -81,7 +86,10 @@ export interface GpuStats {
   bytesRead: number;
   /** The number of kernels that were run. */
   dispatches: number;
-  /** The number of submissions to the queue. */
+  /**
+   * The number of submissions to the queue. One that is split, because the device takes long for
+   * it, counts once.
+   */
   submits: number;
   /** The largest amount of GPU memory that was held at a time, in bytes. */
   bytes: number;

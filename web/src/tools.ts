@@ -161,12 +161,15 @@ function viewOf(mesh: MeshView | MeshView2, simplices: string, neighbors: string
     hull: optional(mesh, 'hull', 'Uint32Array'),
     duplicateOf: optional(mesh, 'duplicateOf', 'Int32Array'),
     dimension: dimensionOf(mesh.dimension),
+    weights: optional({ weights: mesh.weights ?? undefined }, 'weights', 'Float64Array'),
+    hidden: optional(mesh, 'hidden', 'Uint32Array'),
   };
 }
 
 interface Kinds {
   Uint32Array: Uint32Array;
   Int32Array: Int32Array;
+  Float64Array: Float64Array;
 }
 
 /** Returns an array of a mesh, checked. */

@@ -94,12 +94,14 @@ export async function createTriangulator(options?: TriangulatorOptions): Promise
     backend = 'auto',
     device,
     worker,
+    selfTest,
   } = optionsOf(options) as TriangulatorOptions & {
     device?: Device;
   };
   const { gpu } = optionsOf(options);
   checkOneOf('backend', backend, BACKENDS);
   checkBoolean('worker', worker);
+  checkBoolean('selfTest', selfTest);
   const { requestAdapter } = (gpu ?? {}) as { requestAdapter?: unknown };
   if (gpu !== undefined && typeof requestAdapter !== 'function')
     throw bad('the option gpu', 'a GPU object, with the function requestAdapter', gpu);
@@ -108,7 +110,7 @@ export async function createTriangulator(options?: TriangulatorOptions): Promise
       throw bad('the option device', 'a GPUDevice', device);
     if (gpu) throw bad('the option gpu', 'left out beside the option device', gpu);
   }
-  const host = new Host({ gpu, device, worker });
+  const host = new Host({ gpu, device, worker, selfTest });
   try {
     if (backend !== 'cpu') {
       const { result, place } = await host.run(module3d, 'open', { backend }, { transfer: [] }, {});
@@ -167,7 +169,7 @@ async function triangulate3d(
 ): Promise<Mesh3 | ResidentMesh3> {
   const outputs = outputsOf(optionsOf(options));
   const done = await triangulate(maker, IN_3D, points, options, outputs);
-  const update = updating(maker, IN_3D, options, outputs);
+  const update = updating(maker, IN_3D, options, outputs, done.factors);
   return done.result.resident
     ? new ResidentMesh3(done, update, maker.device!)
     : new Mesh3(done, outputs, update);
@@ -179,7 +181,7 @@ async function triangulate2d(
   options: AnyOptions | undefined,
 ): Promise<Mesh2 | ResidentMesh2> {
   const done = await triangulate(maker, IN_2D, points, options);
-  const update = updating(maker, IN_2D, options);
+  const update = updating(maker, IN_2D, options, [], done.factors);
   return done.result.resident
     ? new ResidentMesh2(done, update, maker.device!)
     : new Mesh2(done, update);

@@ -64,6 +64,21 @@ export interface RunOptions extends TaskOptions {
    */
   transfer?: boolean | undefined;
   /**
+   * Factors by which the coordinates are multiplied first, one per axis, such as for degrees and metres;
+   * true for those that give each axis the same extent. The mesh is that of the scaled coordinates, which
+   * it has, with the factors as `factors`; points of updates and queries are scaled as well. Then
+   * `transfer` has no effect. Default: false.
+   */
+  rescale?: boolean | readonly number[] | undefined;
+  /**
+   * One weight per point: the mesh is the regular triangulation, the dual of the power diagram, and points
+   * can be `hidden`. A point of weight *w* counts as a ball of radius √*w*; only differences of weights
+   * count. The CPU computes it. Not together with `radii`, `rescale` or `resident`.
+   */
+  weights?: ArrayLike<number> | undefined;
+  /** One radius per point instead of `weights`, which are its squares. */
+  radii?: ArrayLike<number> | undefined;
+  /**
    * Whether the mesh stays on the device of a triangulator that was created with the option
    * `device`; `outputs` then has no meaning. Default: false.
    */
@@ -118,6 +133,13 @@ export interface TriangulatorOptions {
    * blocks it.
    */
   worker?: boolean | undefined;
+  /**
+   * Whether a GPU has to compute meshes that are known before it is used. One that fails is an error
+   * of code `GPU_WRONG`; `'auto'` takes the CPU. Default: true for hardware in browsers, where what has
+   * passed is remembered, and false in Node and for a `device` of yours. With true, software has to as
+   * well.
+   */
+  selfTest?: boolean | undefined;
 }
 
 /** A WebGPU adapter, as the browser describes it. Browsers may leave strings empty. */
@@ -270,6 +292,10 @@ export interface MeshView {
   hull?: Uint32Array | undefined;
   duplicateOf?: Int32Array | undefined;
   dimension?: number | undefined;
+  /** The weights of the points, if the mesh is to be their regular triangulation. */
+  weights?: Float64Array | null | undefined;
+  /** The points that are no vertices because of their weights. */
+  hidden?: Uint32Array | undefined;
 }
 
 /** What the verifier found in 2D. */
@@ -293,4 +319,7 @@ export interface MeshView2 {
   hull?: Uint32Array | undefined;
   duplicateOf?: Int32Array | undefined;
   dimension?: number | undefined;
+  /** As in 3D. */
+  weights?: Float64Array | null | undefined;
+  hidden?: Uint32Array | undefined;
 }

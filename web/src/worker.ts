@@ -14,9 +14,9 @@ interface Port {
 }
 
 /** Returns the core of the module, or why there is none. */
-function coreOrError({ module }: ToWorker & { type: 'load' }): Core | PlainError {
+function coreOrError({ module, selfTest }: ToWorker & { type: 'load' }): Core | PlainError {
   try {
-    return openCore(module);
+    return openCore(module, { selfTest });
   } catch (error) {
     return error as PlainError;
   }

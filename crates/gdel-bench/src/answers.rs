@@ -55,8 +55,8 @@ fn measure(arguments: &Arguments, points: &[[f64; 3]], queries: &[[f64; 3]]) -> 
         ("laplace", Interpolation::Laplace, few),
         ("sibson", Interpolation::Sibson, few),
     ] {
-        let (row, values) = clock.time(name, || interpolator.interpolate_many(method, queries))?;
-        row.with("count", values.len()).print();
+        let (row, found) = clock.time(name, || interpolator.interpolate_many(method, queries))?;
+        row.with("count", found.values.len()).print();
     }
     // The first query lists the neighbours of the vertices.
     clock.time("vertex neighbors", || locator.nearest(queries[0]))?.0.print();

@@ -4,6 +4,7 @@ use super::{
     dimension::{Counts, Dimension, Triangulation, format_parser, read},
     failure::Failure,
     progress::Progress,
+    report::Flatness,
     triangulate::{BackendName, StatsForm, print, triangulate},
 };
 use clap::{
@@ -12,7 +13,7 @@ use clap::{
 };
 use gdel::{Backend, Error, Points, Triangulator, stats::Fallback};
 use gdel_io::{
-    CellShape, Grid, Mesh, PointCloud, PointFormat, SurfaceFormat,
+    CellShape, Grid, Mesh, PointCloud, PointFormat, SurfaceFormat, Table, TableFormat,
     files::{Input, ResultOutput},
 };
 use serde::{Serialize, Serializer};
@@ -134,6 +135,7 @@ pub(super) fn parse_solid(path: &str, what: &'static str) -> Result<ResultOutput
 #[derive(Serialize)]
 struct Report<'a> {
     points: usize,
+    duplicates: usize,
     dimension: u8,
     #[serde(flatten)]
     counts: Counts,
@@ -154,18 +156,27 @@ fn as_map<T: Serialize, S: Serializer>(entries: &&[(&'static str, T)], serialize
 
 impl fmt::Display for Report<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "{:<16}{}", "points", self.points)?;
+        write!(f, "{:<16}{}", "points", self.points)?;
+        if self.duplicates > 0 {
+            write!(f, " ({} duplicates)", self.duplicates)?;
+        }
+        writeln!(f)?;
+        write!(f, "{}", Flatness { dimension: self.dimension, points: self.points, counts: self.counts })?;
         match self.counts {
             Counts::D3 { tetrahedra, .. } => writeln!(f, "{:<16}{tetrahedra}", "tetrahedra")?,
             Counts::D2 { triangles, .. } => writeln!(f, "{:<16}{triangles}", "triangles")?,
         }
         for (name, number) in self.numbers {
             let name = name.replace('_', " ");
-            match number {
+            match *number {
                 Number::Count(count) => writeln!(f, "{name:<16}{count}")?,
-                Number::Real(real) => writeln!(f, "{name:<16}{real}")?,
+                // With an exponent where digits would be many.
+                Number::Real(real) if real == 0.0 || (1e-5..1e16).contains(&real.abs()) => {
+                    writeln!(f, "{name:<16}{real}")?;
+                }
+                Number::Real(real) => writeln!(f, "{name:<16}{real:e}")?,
                 Number::Name(word) => writeln!(f, "{name:<16}{word}")?,
-                Number::Truth(truth) => writeln!(f, "{name:<16}{}", if *truth { "yes" } else { "no" })?,
+                Number::Truth(truth) => writeln!(f, "{name:<16}{}", if truth { "yes" } else { "no" })?,
             }
         }
         let seconds: Vec<String> = self.seconds.iter().map(|(name, time)| format!("{name} {time:.3}")).collect();
@@ -235,7 +246,7 @@ impl Common {
         // One device for all runs.
         let triangulator = Triangulator::new().backend(self.backend.into());
         let run = || {
-            let (mesh, triangulating) = triangulate::<M, D, N>(points, &triangulator).map_err(failure)?;
+            let (mesh, triangulating) = triangulate::<M, D, N>(points, None, &triangulator).map_err(failure)?;
             let progress = Progress::new(what);
             let start = Instant::now();
             let Found { result, numbers } = derive(&mesh).map_err(failure)?;
@@ -266,6 +277,7 @@ impl Common {
         let stats = mesh.stats();
         let report = Report {
             points,
+            duplicates: mesh.duplicates(),
             dimension: mesh.dimension(),
             counts: mesh.counts(),
             numbers,
@@ -284,6 +296,21 @@ pub(super) fn write<F: Copy>(
 ) -> Result<(), Failure> {
     let _progress = Progress::new("writing");
     Ok(output.write(content)?)
+}
+
+/// Parses the name of a file for a table.
+pub(super) fn parse_table(path: &str) -> Result<ResultOutput<TableFormat>, String> {
+    let known = ["csv", "npz"];
+    let output = ResultOutput::new(Path::new(path), "tables", TableFormat::from_extension, &known);
+    output.map_err(|error| error.to_string())
+}
+
+/// Writes a table in the format of its file.
+pub(super) fn write_table(output: &ResultOutput<TableFormat>, table: &Table) -> Result<(), Failure> {
+    write(output, |to| match output.format() {
+        TableFormat::Csv => table.write_csv(to),
+        TableFormat::Npz => table.write_npz(to),
+    })
 }
 
 /// Writes simplices as cells of a grid.

@@ -1,8 +1,15 @@
 //! `--dim`, and the operations on meshes of either dimension.
 
 use super::failure::Failure;
-use clap::{ValueEnum, builder::PossibleValuesParser, builder::TypedValueParser};
-use gdel::{Error, Mesh2, Mesh3, Points, Points2, Points3, Triangulator, internals::mesh, verify::Report as Proof};
+use clap::{ValueEnum, builder::PossibleValuesParser, builder::TypedValueParser, error::ErrorKind};
+use gdel::{
+    AlphaShape, Error, Mesh2, Mesh3, Points, Points2, Points3, Triangulator,
+    internals::{
+        gpu::{device_mesh::MeshArrays, self_test::fingerprint},
+        mesh,
+    },
+    verify::Report as Proof,
+};
 use gdel_io::{
     MeshData, MeshData2, MeshData3, PointCloud, PointFormat,
     files::{Input, shown},
@@ -34,10 +41,15 @@ pub(super) use in_dimension;
 pub(super) trait Triangulation<const D: usize, const N: usize>:
     gdel_io::Mesh<D, N> + mesh::MeshInfo + Sized
 {
-    fn triangulate(points: Points<'_, D>, triangulator: &Triangulator) -> Result<Self, Error>;
+    /// Triangulates points, which may have weights.
+    fn triangulate(points: Points<'_, D>, weights: Option<&[f64]>, triangulator: &Triangulator) -> Result<Self, Error>;
     fn verify(points: Points<'_, D>, mesh: &Self) -> Result<Proof, Error>;
     fn verify_data(points: Points<'_, D>, mesh: &MeshData<D, N>) -> Result<Proof, Error>;
+    /// Gives points in a plane of space the hull that files have: their polygon, from both sides.
+    fn close_hull(&mut self, points: Points<'_, D>) -> Result<(), Error>;
     fn counts(&self) -> Counts;
+    /// Returns a number that depends on the set of simplices and on which are neighbours.
+    fn fingerprint(&self) -> u64;
 }
 
 /// The number of simplices.
@@ -49,8 +61,11 @@ pub(super) enum Counts {
 }
 
 impl Triangulation<3, 4> for Mesh3 {
-    fn triangulate(points: Points3<'_>, triangulator: &Triangulator) -> Result<Self, Error> {
-        triangulator.delaunay3d(points)
+    fn triangulate(points: Points3<'_>, weights: Option<&[f64]>, triangulator: &Triangulator) -> Result<Self, Error> {
+        match weights {
+            Some(weights) => triangulator.regular3d(points, weights),
+            None => triangulator.delaunay3d(points),
+        }
     }
 
     fn verify(points: Points3<'_>, mesh: &Self) -> Result<Proof, Error> {
@@ -61,14 +76,29 @@ impl Triangulation<3, 4> for Mesh3 {
         gdel::verify3d(points, mesh)
     }
 
+    fn close_hull(&mut self, points: Points3<'_>) -> Result<(), Error> {
+        if self.dimension == 2 {
+            self.hull = AlphaShape::new(self, points)?.at(f64::INFINITY)?.surface().collect();
+        }
+        Ok(())
+    }
+
     fn counts(&self) -> Counts {
         Counts::D3 { tetrahedra: self.tetrahedra.len(), hull_triangles: self.hull.len() }
+    }
+
+    fn fingerprint(&self) -> u64 {
+        let [simplices, neighbors, _] = gdel::internals::dimension::Dimension::<3>::words(self);
+        fingerprint::<3>(simplices, neighbors)
     }
 }
 
 impl Triangulation<2, 3> for Mesh2 {
-    fn triangulate(points: Points2<'_>, triangulator: &Triangulator) -> Result<Self, Error> {
-        triangulator.delaunay2d(points)
+    fn triangulate(points: Points2<'_>, weights: Option<&[f64]>, triangulator: &Triangulator) -> Result<Self, Error> {
+        match weights {
+            Some(weights) => triangulator.regular2d(points, weights),
+            None => triangulator.delaunay2d(points),
+        }
     }
 
     fn verify(points: Points2<'_>, mesh: &Self) -> Result<Proof, Error> {
@@ -79,10 +109,19 @@ impl Triangulation<2, 3> for Mesh2 {
         gdel::verify2d(points, mesh)
     }
 
+    fn close_hull(&mut self, _: Points2<'_>) -> Result<(), Error> {
+        Ok(())
+    }
+
     fn counts(&self) -> Counts {
         // The hull of collinear points is a sequence, which has no edges.
         let hull_edges = if self.dimension == 2 { self.hull.len() } else { 0 };
         Counts::D2 { triangles: self.triangles.len(), hull_edges }
+    }
+
+    fn fingerprint(&self) -> u64 {
+        let [simplices, neighbors, _] = gdel::internals::dimension::Dimension::<2>::words(self);
+        fingerprint::<2>(simplices, neighbors)
     }
 }
 
@@ -93,6 +132,28 @@ pub(super) fn read<const D: usize>(input: &Input) -> Result<PointCloud<D>, Failu
         eprintln!("gdel: {}: the z coordinates are dropped", shown(input.path()));
     }
     Ok(cloud)
+}
+
+/// The argument `--rescale`: nothing for the extents, or one factor per axis.
+#[derive(Debug, Clone)]
+pub(super) struct Rescale(Vec<f64>);
+
+impl Rescale {
+    /// Parses factors, separated by commas.
+    pub(super) fn parse(text: &str) -> Result<Self, String> {
+        let factor = |text: &str| text.trim().parse().ok().filter(|factor: &f64| *factor > 0.0 && factor.is_finite());
+        let factors = if text.is_empty() { Some(Vec::new()) } else { text.split(',').map(factor).collect() };
+        factors.map(Rescale).ok_or_else(|| "positive numbers, separated by commas, are needed".into())
+    }
+
+    /// Returns the factor of each axis of points.
+    pub(super) fn factors<const D: usize>(&self, points: Points<'_, D>) -> Result<[f64; D], Failure> {
+        if self.0.is_empty() {
+            return Ok(points.unit_factors());
+        }
+        let what = format!("--rescale needs {D} factors, one per axis");
+        self.0.as_slice().try_into().map_err(|_| Failure::Usage(ErrorKind::WrongNumberOfValues, what))
+    }
 }
 
 /// Parses the name of a format of points, which is one of its extensions.

@@ -23,6 +23,8 @@ pub(crate) enum Failure {
         shown(path)
     )]
     NoPoints { path: PathBuf },
+    #[error("{} computes wrong results", .0.join(" and "))]
+    WrongDevices(Vec<String>),
     #[error("standard output: {0}")]
     StandardOutput(#[from] io::Error),
 }

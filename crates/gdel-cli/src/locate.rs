@@ -1,9 +1,10 @@
 //! `gdel locate`: which simplex contains each query, and which vertex is nearest.
 
 use super::{
-    derive::{Common, Found, Number, Queries, write},
+    derive::{Common, Found, Number, Queries, parse_table, write_table},
     dimension::{Triangulation, in_dimension},
     failure::Failure,
+    sphere,
 };
 use clap::Args;
 use gdel::{
@@ -11,7 +12,6 @@ use gdel::{
     internals::geometry::{Euclidean, Geometry},
 };
 use gdel_io::{Column, Table, TableFormat, files::ResultOutput};
-use std::path::Path;
 
 /// Find the simplex that contains each query point, and the nearest vertex.
 #[derive(Args)]
@@ -20,6 +20,14 @@ pub(super) struct Arguments {
     common: Common,
     #[command(flatten)]
     queries: Queries,
+    /// Take points and queries as longitude and latitude in degrees: `simplex` is then `triangle`, the number of a
+    /// triangle in the hull that `triangulate --sphere` writes
+    #[arg(long, conflicts_with_all = ["dim", "exact"])]
+    sphere: bool,
+    /// Leave queries outside that are outside the hull by no more than coordinates are rounded: four
+    /// units in the last place of the largest coordinate of each axis
+    #[arg(long)]
+    exact: bool,
     /// Where to write, one row per query: .csv or .npz. `simplex` is the number of the simplex in
     /// the mesh that `triangulate` writes, −1 outside the hull; `v0`, `v1`, … are its vertices, or
     /// outside those of a facet of the hull that sees the query, and −1; `nearest` is the nearest
@@ -28,22 +36,10 @@ pub(super) struct Arguments {
     output: ResultOutput<TableFormat>,
 }
 
-/// Parses the name of a file for a table.
-pub(super) fn parse_table(path: &str) -> Result<ResultOutput<TableFormat>, String> {
-    let known = ["csv", "npz"];
-    let output = ResultOutput::new(Path::new(path), "tables", TableFormat::from_extension, &known);
-    output.map_err(|error| error.to_string())
-}
-
-/// Writes a table in the format of its file.
-pub(super) fn write_table(output: &ResultOutput<TableFormat>, table: &Table) -> Result<(), Failure> {
-    write(output, |to| match output.format() {
-        TableFormat::Csv => table.write_csv(to),
-        TableFormat::Npz => table.write_npz(to),
-    })
-}
-
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    if arguments.sphere {
+        return sphere::locate(&arguments.common, &arguments.queries, &arguments.output);
+    }
     in_dimension!(arguments.common.dim, run_in, arguments)
 }
 
@@ -51,7 +47,7 @@ fn run_in<M: Triangulation<D, N>, const D: usize, const N: usize>(arguments: &Ar
 where
     Euclidean: Geometry<D, N>,
 {
-    let Arguments { common, queries, output } = arguments;
+    let Arguments { common, queries, exact, output, .. } = arguments;
     let input = common.input()?;
     let query_input = queries.input(&input)?;
     common.check(output, &[input.path(), query_input.path()])?;
@@ -59,11 +55,11 @@ where
     let queries = Queries::read::<D>(&query_input)?;
     let (points, queries) = (Points::from(&points), Points::from(&queries));
     let (mesh, (located, nearest)) = common.run::<M, D, N, _>(points, "locate", |mesh| {
-        let locator = Locator::new(mesh, points)?;
+        let locator = locator(mesh, points, *exact)?;
         let located = locator.locate_many(queries)?;
         let nearest = locator.nearest_many(queries)?;
-        let inside = located.iter().filter(|location| location.simplex().is_some()).count();
-        let numbers = vec![("queries", Number::Count(queries.len())), ("inside", Number::Count(inside))];
+        let outside = located.iter().filter(|location| location.simplex().is_none()).count();
+        let numbers = vec![("queries", Number::Count(queries.len())), ("outside", Number::Count(outside))];
         Ok(Found { result: (located, nearest), numbers })
     })?;
     let simplex = |location: &Location| location.simplex().map_or(-1, |t| t as i64);
@@ -74,6 +70,19 @@ where
     }
     let nearest = nearest.iter().map(|v| v.map_or(-1, i64::from)).collect();
     write_table(output, &table.with("nearest", Column::Indices(nearest)))
+}
+
+/// Creates a locator, without a tolerance if it is to be exact.
+pub(super) fn locator<'a, const D: usize, const N: usize>(
+    mesh: &'a impl gdel::Mesh<D, N>,
+    points: Points<'a, D>,
+    exact: bool,
+) -> Result<Locator<'a, D, N>, gdel::Error>
+where
+    Euclidean: Geometry<D, N>,
+{
+    let locator = Locator::new(mesh, points)?;
+    Ok(if exact { locator.exact() } else { locator })
 }
 
 /// Returns the vertices of the simplex or facet where a query is, and −1 in the places without one.

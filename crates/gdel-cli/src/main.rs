@@ -3,9 +3,11 @@
 
 mod adapters;
 mod alpha;
+mod contour;
 #[cfg(feature = "decimate")]
 mod decimate;
 mod derive;
+mod device_report;
 mod dimension;
 mod failure;
 mod generate;
@@ -16,6 +18,7 @@ mod progress;
 mod quiet;
 mod report;
 mod signals;
+mod sphere;
 mod surface;
 mod tree;
 mod triangulate;
@@ -51,12 +54,12 @@ enum Command {
     Verify(verify::Arguments),
     Locate(locate::Arguments),
     Interpolate(interpolate::Arguments),
+    Contour(contour::Arguments),
     Voronoi(voronoi::Arguments),
     Alpha(alpha::Arguments),
     Surface(surface::Arguments),
     Tree(tree::Arguments),
-    /// List the GPUs of this machine
-    Adapters,
+    Adapters(adapters::Arguments),
 }
 
 /// Parses the arguments and runs the command.
@@ -76,11 +79,12 @@ fn main() -> ExitCode {
         Command::Verify(arguments) => verify::run(&arguments),
         Command::Locate(arguments) => locate::run(&arguments),
         Command::Interpolate(arguments) => interpolate::run(&arguments),
+        Command::Contour(arguments) => contour::run(&arguments),
         Command::Voronoi(arguments) => voronoi::run(&arguments),
         Command::Alpha(arguments) => alpha::run(&arguments),
         Command::Surface(arguments) => surface::run(&arguments),
         Command::Tree(arguments) => tree::run(&arguments),
-        Command::Adapters => adapters::run(),
+        Command::Adapters(arguments) => adapters::run(&arguments),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

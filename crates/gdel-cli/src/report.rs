@@ -19,11 +19,14 @@ pub(super) struct Report<'a> {
     /// Columns of a text file that are not coordinates.
     ignored_columns: usize,
     duplicates: usize,
+    /// Points that are no vertices because of their weights, where there are different ones.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    hidden: Option<usize>,
     dimension: u8,
     /// The numbers of simplices and their faces.
     #[serde(flatten)]
     counts: Counts,
-    /// Whether the mesh was proven to be the Delaunay triangulation, where that was requested.
+    /// Whether the mesh was proven to be the triangulation that it should be, where that was requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     verified: Option<bool>,
     backend: Backend,
@@ -69,6 +72,7 @@ impl<'a> Report<'a> {
             no_return: cloud.no_return,
             ignored_columns: cloud.ignored_columns,
             duplicates: mesh.duplicates(),
+            hidden: mesh.hidden_count(),
             dimension: mesh.dimension(),
             counts: mesh.counts(),
             verified,
@@ -91,25 +95,16 @@ impl fmt::Display for Report<'_> {
         if self.no_return > 0 {
             write!(f, " and {} without a return, dropped", self.no_return)?;
         }
+        if let Some(hidden) = self.hidden {
+            write!(f, ", {hidden} hidden")?;
+        }
         match self.ignored_columns {
             0 => {}
             1 => write!(f, "; the column after the coordinates is ignored")?,
             n => write!(f, "; {n} columns after the coordinates are ignored")?,
         }
         writeln!(f)?;
-        let (full, simplices) = match self.counts {
-            Counts::D3 { .. } => (3, "tetrahedra"),
-            Counts::D2 { .. } => (2, "triangles"),
-        };
-        if self.dimension < full {
-            let shape = match (self.dimension, self.points) {
-                (_, 0) => "there are no points",
-                (0, _) => "all points are equal",
-                (1, _) => "all points are collinear",
-                _ => "all points are coplanar",
-            };
-            writeln!(f, "dimension       {} ({shape}, so there are no {simplices})", self.dimension)?;
-        }
+        write!(f, "{}", Flatness { dimension: self.dimension, points: self.points, counts: self.counts })?;
         match self.counts {
             Counts::D3 { tetrahedra, hull_triangles } => {
                 writeln!(f, "tetrahedra      {tetrahedra}\nhull triangles  {hull_triangles}")?;
@@ -126,10 +121,37 @@ impl fmt::Display for Report<'_> {
             write!(f, ", {phase} {:.3}", time.as_secs_f64())?;
         }
         write!(f, ")")?;
+        let kind = if self.hidden.is_some() { "regular" } else { "Delaunay" };
         match self.verified {
-            Some(true) => write!(f, "\nverified        this is the Delaunay triangulation"),
-            Some(false) => write!(f, "\nverified        NOT the Delaunay triangulation"),
+            Some(true) => write!(f, "\nverified        this is the {kind} triangulation"),
+            Some(false) => write!(f, "\nverified        NOT the {kind} triangulation"),
             None => Ok(()),
         }
+    }
+}
+
+/// A line that says why there are no simplices, where the points are flat.
+pub(super) struct Flatness {
+    pub(super) dimension: u8,
+    pub(super) points: usize,
+    pub(super) counts: Counts,
+}
+
+impl fmt::Display for Flatness {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (full, simplices) = match self.counts {
+            Counts::D3 { .. } => (3, "tetrahedra"),
+            Counts::D2 { .. } => (2, "triangles"),
+        };
+        if self.dimension == full {
+            return Ok(());
+        }
+        let shape = match (self.dimension, self.points) {
+            (_, 0) => "there are no points",
+            (0, _) => "all points are equal",
+            (1, _) => "all points are collinear",
+            _ => "all points are coplanar",
+        };
+        writeln!(f, "dimension       {} ({shape}, so there are no {simplices})", self.dimension)
     }
 }

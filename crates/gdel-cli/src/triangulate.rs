@@ -1,16 +1,16 @@
-//! `gdel triangulate`: a point cloud in, its Delaunay triangulation out.
+//! `gdel triangulate`: a point cloud in, its Delaunay triangulation out, or the regular one of weighted points.
 
 use super::{
-    dimension::{Dimension, Triangulation, format_parser, in_dimension, read},
+    dimension::{Dimension, Rescale, Triangulation, format_parser, in_dimension, read},
     failure::Failure,
     progress::Progress,
     report::Report,
     verify,
 };
 use clap::{Args, ValueEnum};
-use gdel::{Backend, Points, Triangulator};
+use gdel::{Backend, Mesh3, Points, Triangulator, internals::cpu::weights_of_radii};
 use gdel_io::{
-    PointFormat,
+    PointCloud, PointFormat,
     files::{Input, Output},
 };
 use serde::Serialize;
@@ -23,14 +23,15 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Compute the Delaunay triangulation of a point cloud.
+/// Compute the Delaunay triangulation of a point cloud, or the regular triangulation of weighted points.
 #[derive(Args)]
 pub(super) struct Arguments {
-    /// The points: .ply, .obj, .stl, .off, .xyz, .txt, .asc, .pts, .csv, .tsv, .pcd, .las, .laz,
+    /// The points: .ply, .obj, .stl, .off, .xyz, .txt, .asc, .pts, .csv, .tsv, .ptx, .pcd, .las, .laz,
     /// .e57, .npy, .node, .f32 or .f64; or `-` for standard input, with `--format`
     input: PathBuf,
     /// Where to write: the mesh as .node, .ele and .neigh (TetGen, always all three), .vtu or .npz;
-    /// its hull as .ply, .obj, .stl, .glb or .3mf; may be given several times
+    /// its hull as .ply, .obj, .stl, .glb or .3mf, for points in a plane their polygon from both sides; may
+    /// be given several times
     #[arg(short, long = "output", value_name = "OUTPUT", value_parser = parse_output)]
     outputs: Vec<Output>,
     /// Replace any existing file; without this, only earlier outputs of gdel are replaced
@@ -39,9 +40,25 @@ pub(super) struct Arguments {
     /// The dimension of the points; in 2D, z is dropped and all outputs hold triangles
     #[arg(long, value_enum, default_value_t = Dimension::Three)]
     dim: Dimension,
+    /// Take the points as longitude and latitude in degrees: the hull of the points of the unit sphere is
+    /// their triangulation there
+    #[arg(long, conflicts_with_all = ["dim", "rescale"])]
+    sphere: bool,
     /// The format of the input, whatever its extension
     #[arg(long, value_parser = format_parser())]
     format: Option<PointFormat>,
+    /// Multiply the coordinates by these factors, one per axis, before anything is computed; without
+    /// factors, by those that give each axis the same extent. What is written has the given coordinates
+    #[arg(long, value_name = "X,Y,Z", num_args = 0..=1, require_equals = true, default_missing_value = "")]
+    #[arg(value_parser = Rescale::parse)]
+    rescale: Option<Rescale>,
+    /// Compute the regular triangulation of points with weights: the column of the input that holds these, by its name in
+    /// the first line or its number, counted from 1. The input must be text or CSV
+    #[arg(long, value_name = "COLUMN", conflicts_with_all = ["radii", "rescale", "sphere"])]
+    weights: Option<String>,
+    /// The same with the squares of a column of radii for weights
+    #[arg(long, value_name = "COLUMN", conflicts_with_all = ["rescale", "sphere"])]
+    radii: Option<String>,
     /// Where to compute; the mesh is the same everywhere
     #[arg(long, value_enum, default_value_t = BackendName::Auto)]
     backend: BackendName,
@@ -54,7 +71,7 @@ pub(super) struct Arguments {
     /// Triangulate this many times
     #[arg(long, value_name = "N", default_value = "1")]
     repeat: NonZeroUsize,
-    /// Prove that the result is the Delaunay triangulation; with --repeat, the last one
+    /// Prove that the result is the triangulation that it should be; with --repeat, the last one
     #[arg(long)]
     verify: bool,
 }
@@ -90,19 +107,58 @@ fn parse_output(path: &str) -> Result<Output, String> {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    if arguments.sphere {
+        return triangulate_sphere(arguments);
+    }
     in_dimension!(arguments.dim, run_in, arguments)
 }
 
+fn triangulate_sphere(arguments: &Arguments) -> Result<(), Failure> {
+    let Read { input, cloud, .. } = read_input::<2>(arguments)?;
+    let failure = |source| Failure::Points { path: input.path().into(), source };
+    let points = gdel::on_sphere(&cloud).map_err(failure)?;
+    let cloud = cloud.with_points(points);
+    run_with::<Mesh3, 3, 4>(arguments, &Read { input, cloud, weights: None })
+}
+
 fn run_in<M: Triangulation<D, N>, const D: usize, const N: usize>(arguments: &Arguments) -> Result<(), Failure> {
+    run_with::<M, D, N>(arguments, &read_input::<D>(arguments)?)
+}
+
+/// What is triangulated.
+struct Read<const D: usize> {
+    input: Input,
+    cloud: PointCloud<D>,
+    weights: Option<Vec<f64>>,
+}
+
+/// Checks the outputs, and reads the points, and their weights if there are to be any.
+fn read_input<const D: usize>(arguments: &Arguments) -> Result<Read<D>, Failure> {
     let input = Input::new(&arguments.input, arguments.format)?;
     arguments.outputs.iter().try_for_each(|output| output.check(&[input.path()], arguments.force))?;
-    let cloud = {
-        let _progress = Progress::new("reading");
-        read::<D>(&input)?
+    let _progress = Progress::new("reading");
+    let Some(column) = arguments.weights.as_ref().or(arguments.radii.as_ref()) else {
+        let cloud = read::<D>(&input)?;
+        return Ok(Read { input, cloud, weights: None });
     };
-    let points = Points::from(&cloud);
+    let (cloud, mut weights) = input.read_with_values::<D>(column)?;
+    if arguments.radii.is_some() {
+        let squares = weights_of_radii(&weights);
+        weights = squares.map_err(|source| Failure::Points { path: input.path().into(), source })?;
+    }
+    Ok(Read { input, cloud, weights: Some(weights) })
+}
+
+fn run_with<M: Triangulation<D, N>, const D: usize, const N: usize>(
+    arguments: &Arguments,
+    Read { input, cloud, weights }: &Read<D>,
+) -> Result<(), Failure> {
+    let given = Points::from(cloud);
+    let factors = arguments.rescale.as_ref().map(|rescale| rescale.factors(given)).transpose()?;
+    let scaled = factors.map(|factors| given.scaled(factors));
+    let (points, weights) = (scaled.as_ref().map_or(given, |scaled| Points::F64(scaled)), weights.as_deref());
     let failure = |source| Failure::Points { path: input.path().into(), source };
-    let report = |mesh: &M, total, verified| print(arguments.stats, &Report::new(&cloud, mesh, total, verified));
+    let report = |mesh: &M, total, verified| print(arguments.stats, &Report::new(cloud, mesh, total, verified));
     // One device for all runs.
     let mut triangulator = Triangulator::new().backend(arguments.backend.into());
     if let Some(threads) = arguments.threads {
@@ -110,12 +166,12 @@ fn run_in<M: Triangulation<D, N>, const D: usize, const N: usize>(arguments: &Ar
     }
     // Each run gives its memory back before the next.
     for _ in 1..arguments.repeat.get() {
-        let (mesh, total) = triangulate::<M, D, N>(points, &triangulator).map_err(failure)?;
+        let (mesh, total) = triangulate::<M, D, N>(points, weights, &triangulator).map_err(failure)?;
         if !report(&mesh, total, None)? {
             break;
         }
     }
-    let (mesh, total) = triangulate::<M, D, N>(points, &triangulator).map_err(failure)?;
+    let (mut mesh, total) = triangulate::<M, D, N>(points, weights, &triangulator).map_err(failure)?;
     let proof =
         if arguments.verify { Some(verify::proof(|| M::verify(points, &mesh)).map_err(failure)?) } else { None };
     report(&mesh, total, proof.as_ref().map(gdel::verify::Report::passed))?;
@@ -123,12 +179,16 @@ fn run_in<M: Triangulation<D, N>, const D: usize, const N: usize>(arguments: &Ar
         verify::conclude(input.path(), proof)?;
     }
     let _progress = Progress::new("writing");
-    Ok(arguments.outputs.iter().try_for_each(|output| output.write(points, &mesh))?)
+    if !arguments.outputs.is_empty() {
+        mesh.close_hull(points).map_err(failure)?;
+    }
+    Ok(arguments.outputs.iter().try_for_each(|output| output.write(given, &mesh))?)
 }
 
 /// Triangulates, and measures how long that takes.
 pub(super) fn triangulate<M: Triangulation<D, N>, const D: usize, const N: usize>(
     points: Points<'_, D>,
+    weights: Option<&[f64]>,
     triangulator: &Triangulator,
 ) -> Result<(M, Duration), gdel::Error> {
     let progress = Progress::new("triangulating");
@@ -138,7 +198,7 @@ pub(super) fn triangulate<M: Triangulation<D, N>, const D: usize, const N: usize
         ControlFlow::Continue(())
     });
     let start = Instant::now();
-    let mesh = M::triangulate(points, &triangulator)?;
+    let mesh = M::triangulate(points, weights, &triangulator)?;
     Ok((mesh, start.elapsed()))
 }
 

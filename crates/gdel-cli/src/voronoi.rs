@@ -2,38 +2,82 @@
 
 use super::{
     derive::{Common, Found, GridFormat, Number, parse_grid, write},
-    dimension::{Triangulation, in_dimension},
+    dimension::{Triangulation, in_dimension, read},
     failure::Failure,
+    sphere,
 };
-use clap::{Args, ValueEnum};
+use clap::{Args, error::ErrorKind};
 use gdel::{
     Clip, Csr, NONE, Points, Voronoi,
     internals::{derived::VoronoiShapes, geometry::Euclidean},
 };
-use gdel_io::{CellShape, Column, Grid, Table, files::ResultOutput};
+use gdel_io::{
+    CellShape, Column, Grid, Table,
+    files::{Input, ResultOutput},
+};
+use std::path::{Path, PathBuf};
 
 /// Compute the Voronoi cells of points.
 #[derive(Args)]
 pub(super) struct Arguments {
     #[command(flatten)]
     common: Common,
-    /// What the cells are clipped to
-    #[arg(long, value_enum, default_value_t = ClipName::Box)]
-    clip: ClipName,
+    /// What the cells are clipped to: `none`, the smallest `box` that contains all points, their convex
+    /// `hull`, a box by its lowest and its highest coordinates (xmin,ymin,xmax,ymax or
+    /// xmin,ymin,zmin,xmax,ymax,zmax), or a file with the corners of a convex polygon or polyhedron
+    #[arg(long, value_name = "SHAPE", default_value = "box", value_parser = parse_clip)]
+    #[arg(allow_hyphen_values = true)]
+    clip: ClipShape,
+    /// Take points as longitude and latitude in degrees: the cells cover the sphere. Areas are
+    /// in steradians; .vtu has the cells on the unit sphere, .npz the longitudes and latitudes of corners
+    #[arg(long, conflicts_with_all = ["dim", "clip"])]
+    sphere: bool,
     /// Where to write: the cells as .vtu (those that are bounded); the volume, the centre of mass
     /// and the neighbours of each point's cell as .csv; all arrays as .npz
     #[arg(short, long = "output", value_name = "FILE", value_parser = parse_output)]
     output: ResultOutput<GridFormat>,
 }
 
-#[derive(Clone, Copy, ValueEnum)]
-enum ClipName {
-    /// Nothing
+#[derive(Debug, Clone)]
+enum ClipShape {
     None,
-    /// The smallest box that contains all points
     Box,
-    /// The convex hull of the points
     Hull,
+    /// The lowest coordinates, then the highest.
+    Bounds(Vec<f64>),
+    /// The file with the corners.
+    Corners(PathBuf),
+}
+
+fn parse_clip(text: &str) -> Result<ClipShape, String> {
+    let bounds: Option<Vec<f64>> = text.split(',').map(|x| x.trim().parse().ok()).collect();
+    Ok(match (text, bounds) {
+        ("none", _) => ClipShape::None,
+        ("box", _) => ClipShape::Box,
+        ("hull", _) => ClipShape::Hull,
+        (_, Some(bounds)) => ClipShape::Bounds(bounds),
+        _ if Path::new(text).extension().is_some() => ClipShape::Corners(text.into()),
+        _ => return Err("`none`, `box`, `hull`, numbers with commas between them or a file is needed".into()),
+    })
+}
+
+impl ClipShape {
+    /// Returns the bounds of a box that is given.
+    fn bounds<const D: usize>(&self) -> Result<Option<[[f64; D]; 2]>, Failure> {
+        let ClipShape::Bounds(numbers) = self else { return Ok(None) };
+        if numbers.len() != 2 * D {
+            let what = format!("--clip needs {} numbers, not {}", 2 * D, numbers.len());
+            return Err(Failure::Usage(ErrorKind::ValueValidation, what));
+        }
+        Ok(Some([0, D].map(|first| std::array::from_fn(|axis| numbers[first + axis]))))
+    }
+
+    /// Reads the corners of a shape that is given.
+    fn corners<const D: usize>(&self) -> Result<Vec<[f64; D]>, Failure> {
+        let ClipShape::Corners(path) = self else { return Ok(Vec::new()) };
+        let corners = read::<D>(&Input::new(path, None)?)?;
+        Ok(Points::from(&corners).iter().collect())
+    }
 }
 
 fn parse_output(path: &str) -> Result<ResultOutput<GridFormat>, String> {
@@ -41,6 +85,9 @@ fn parse_output(path: &str) -> Result<ResultOutput<GridFormat>, String> {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    if arguments.sphere {
+        return sphere::voronoi(&arguments.common, &arguments.output);
+    }
     in_dimension!(arguments.common.dim, run_in, arguments)
 }
 
@@ -48,14 +95,16 @@ fn run_in<M: Triangulation<D, N>, const D: usize, const N: usize>(arguments: &Ar
 where
     Euclidean: VoronoiShapes<D, N>,
 {
-    let Arguments { common, clip, output } = arguments;
+    let Arguments { common, clip, output, .. } = arguments;
+    let (given, corners) = (clip.bounds::<D>()?, clip.corners::<D>()?);
     let cloud = common.read_for::<D, _>(output)?;
     let points = Points::from(&cloud);
     let (_, result) = common.run::<M, D, N, _>(points, "voronoi", |mesh| {
         let clip = match (clip, points.bounds()) {
-            (ClipName::Hull, _) => Clip::Hull,
-            // Flat points, whose box may have no inside, have no cells.
-            (ClipName::Box, Some(bounds)) if !mesh.simplices().is_empty() => Clip::Box(bounds),
+            (ClipShape::Hull, _) => Clip::Hull,
+            (ClipShape::Corners(_), _) => Clip::Convex(&corners),
+            (ClipShape::Bounds(_), _) => given.map_or(Clip::None, Clip::Box),
+            (ClipShape::Box, Some(bounds)) => Clip::Box(bounds),
             _ => Clip::None,
         };
         let voronoi = Voronoi::new(mesh, points, clip)?;
@@ -134,10 +183,23 @@ fn cells<const D: usize, const N: usize>(voronoi: &Voronoi<'_, D, N>) -> (Derive
 where
     Euclidean: VoronoiShapes<D, N>,
 {
-    let shape = if D == 2 { CellShape::Polygon } else { CellShape::Polyhedron };
+    let found = voronoi.map_cells(|point, cell| (point, cell.clone()));
+    // The facets have vertices enough, except for points in a plane or on a line.
+    let shape = match found
+        .iter()
+        .filter(|(_, cell)| cell.is_bounded && !cell.is_empty())
+        .map(|(_, cell)| cell.facets.of(0).len())
+        .next()
+    {
+        Some(1) => CellShape::Line,
+        Some(2) => CellShape::Polygon,
+        Some(_) => CellShape::Polyhedron,
+        None if D == 2 => CellShape::Polygon,
+        None => CellShape::Polyhedron,
+    };
     let mut grid = Grid::new::<D>(Points::F64(&[]), shape);
     let (mut points, mut volumes, mut all) = (Vec::new(), Vec::new(), Vec::new());
-    for (point, cell) in voronoi.map_cells(|point, cell| (point, cell.clone())) {
+    for (point, cell) in found {
         all.push(cell.volume);
         if cell.is_empty() || !cell.is_bounded {
             continue;
@@ -147,7 +209,7 @@ where
         grid.points.extend(cell.vertices.iter().map(padded));
         let corners: Vec<u32> = cell.facets.indices.iter().map(|v| first + v).collect();
         let facets = cell.facets.offsets.windows(2).map(|ends| &corners[ends[0]..ends[1]]);
-        if D == 2 {
+        if shape != CellShape::Polyhedron {
             // The edges are in order, and each begins with a vertex.
             grid.push(facets.map(|ends| ends[0]));
         } else {

@@ -1,8 +1,8 @@
 //! The formats by file extension.
 
 use crate::{
-    FormatError, Mesh, MeshData, PointCloud, e57, glb, las, npy, npz, obj, off, pcd, ply, raw, stl, surface::Surface,
-    tetgen, text, three_mf, vtu,
+    FormatError, Mesh, MeshData, PointCloud, e57, glb, las, npy, npz, obj, off, pcd, ply, ptx, raw, stl,
+    surface::Surface, tetgen, text, three_mf, vtu,
 };
 use gdel::Points;
 use std::io::{self, Write};
@@ -52,6 +52,8 @@ formats! {
         /// Comma-, semicolon- or tab-separated values; a first row of names may say which columns
         /// are x, y and z.
         Csv: "csv" | "tsv",
+        /// Leica's PTX: the points of all scans, in the coordinates that these share.
+        Ptx: "ptx",
         /// Point Cloud Library.
         Pcd: "pcd",
         /// ASPRS LAS and its compressed form LAZ.
@@ -165,6 +167,7 @@ impl PointFormat {
             PointFormat::Obj => obj::read(&bytes),
             PointFormat::Stl => stl::read(&bytes),
             PointFormat::Off => off::read(&bytes),
+            PointFormat::Ptx => ptx::read(&bytes),
             PointFormat::Pcd => pcd::read(&bytes),
             PointFormat::Las => las::read(bytes),
             PointFormat::E57 => e57::read(&bytes),
@@ -176,7 +179,8 @@ impl PointFormat {
 
     /// Returns whether [`write`](Self::write) supports this format.
     pub fn is_written(self) -> bool {
-        !matches!(self, PointFormat::Stl | PointFormat::Off | PointFormat::Pcd | PointFormat::Las | PointFormat::E57)
+        use PointFormat::*;
+        !matches!(self, Stl | Off | Ptx | Pcd | Las | E57)
     }
 
     /// Writes points in this format. 2D points have two columns in text, CSV, NumPy and `.node`
@@ -196,9 +200,12 @@ impl PointFormat {
             PointFormat::Node => tetgen::write_node(to, points),
             PointFormat::RawF32 => raw::write_f32(to, points),
             PointFormat::RawF64 => raw::write_f64(to, points),
-            PointFormat::Stl | PointFormat::Off | PointFormat::Pcd | PointFormat::Las | PointFormat::E57 => {
-                Err(io::ErrorKind::Unsupported.into())
-            }
+            PointFormat::Stl
+            | PointFormat::Off
+            | PointFormat::Ptx
+            | PointFormat::Pcd
+            | PointFormat::Las
+            | PointFormat::E57 => Err(io::ErrorKind::Unsupported.into()),
         }
     }
 }

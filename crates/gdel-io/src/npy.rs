@@ -224,6 +224,13 @@ pub(super) fn write_vector<T: Copy, const SIZE: usize>(
     elements.iter().try_for_each(|&x| to.write_all(&encode(x)))
 }
 
+/// Writes 64-bit numbers of a grid with so many cells along each axis, of which the first changes fastest.
+pub(super) fn write_grid(mut to: impl Write, size: &[usize], numbers: &[f64]) -> io::Result<()> {
+    let shape: Vec<String> = size.iter().rev().map(usize::to_string).collect();
+    write_header(&mut to, "<f8", &format!("({})", shape.join(", ")))?;
+    numbers.iter().try_for_each(|x| to.write_all(&x.to_le_bytes()))
+}
+
 fn write_header(to: &mut impl Write, descr: &str, shape: &str) -> io::Result<()> {
     let dictionary = format!("{{'descr': '{descr}', 'fortran_order': False, 'shape': {shape}, }}");
     // With the ten bytes before it and the line end, the header fills a multiple of 64 bytes.

@@ -227,7 +227,8 @@ fn declare(names: &[&[u8]], sizes: &[&[u8]], kinds: &[&[u8]], counts: &[&[u8]]) 
         let count = match counts.get(i).map(|word| (word, integer(word))) {
             None => 1,
             Some((_, Some(1))) => 1,
-            // Programs disagree whether 0 means 1 or none.
+            // Programs disagree whether 0 means 1 or none of what is used; else it is none.
+            Some((_, Some(0))) if is_axis.is_none() && Tint::of(name, scalar, 1).is_none() => 0,
             Some((_, Some(count))) if is_axis.is_none() && (1..=LARGEST_COUNT).contains(&count) => count,
             Some((word, _)) => {
                 let must = if is_axis.is_some() { "must be 1" } else { "is not a sensible number" };

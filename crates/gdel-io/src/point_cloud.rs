@@ -48,7 +48,7 @@ pub struct PointCloud<const D: usize = 3> {
     /// The points, in the file's order.
     pub points: PointBuf<D>,
     /// How many points of the file are not in `points`, because it says that they have no
-    /// coordinates: by NaN in PCD, by their state in E57. Always 0 for other formats; NaN is an
+    /// coordinates: by NaN in PCD, by their state in E57, by three zeros in PTX. Always 0 for other formats; NaN is an
     /// error in all but PCD.
     pub no_return: usize,
     /// How many columns of a text file were ignored: those after the coordinates. Always 0 for
@@ -94,6 +94,19 @@ impl<const D: usize> PointCloud<D> {
     }
 
     /// Keeps the first `E` coordinates of each point.
+    /// Returns the cloud with other points for the same rows of the file, without normals and sensors.
+    pub fn with_points<const E: usize>(self, points: Vec<[f64; E]>) -> PointCloud<E> {
+        PointCloud {
+            points: PointBuf::F64(points),
+            no_return: self.no_return,
+            ignored_columns: self.ignored_columns,
+            dropped_z: self.dropped_z,
+            colors: self.colors,
+            normals: None,
+            sensors: Vec::new(),
+        }
+    }
+
     pub(super) fn resize<const E: usize>(self) -> PointCloud<E> {
         let loses_z = E < 3 && Points::from(&self.points).iter().any(|p| p.get(2).is_some_and(|&z| z != 0.0));
         PointCloud {

@@ -110,9 +110,11 @@ impl Table {
     }
 }
 
-/// The type of all cells of a grid.
+/// The type of cells of a grid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CellShape {
+    /// Vertices.
+    Vertex,
     /// Edges.
     Line,
     /// Triangles.
@@ -129,6 +131,7 @@ impl CellShape {
     /// Returns VTK's number.
     fn vtk(self) -> u8 {
         match self {
+            CellShape::Vertex => 1,
             CellShape::Line => 3,
             CellShape::Triangle => 5,
             CellShape::Polygon => 7,
@@ -138,17 +141,19 @@ impl CellShape {
     }
 }
 
-/// Cells of one shape with values, for VTK.
+/// Cells with values, for VTK.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Grid {
     /// The vertices; 2D points have *z* = 0.
     pub points: Vec<[f64; 3]>,
-    /// The shape of the cells.
+    /// The shape of the cells that are pushed.
     pub shape: CellShape,
     /// One row per cell. Lists are left out.
     pub values: Table,
     /// The vertices of each cell.
     cells: Csr,
+    /// VTK's number of the shape of each cell.
+    types: Vec<u8>,
     /// For polyhedra, what VTK calls faces, one list per cell: the number of faces, then for each
     /// face the number of its vertices and the vertices.
     faces: Csr,
@@ -158,12 +163,14 @@ impl Grid {
     /// Creates a grid without cells.
     pub fn new<const D: usize>(points: Points<'_, D>, shape: CellShape) -> Self {
         let points = points.iter().map(padded).collect();
-        Grid { points, shape, values: Table::default(), cells: Csr::default(), faces: Csr::default() }
+        let (cells, faces) = (Csr::default(), Csr::default());
+        Grid { points, shape, values: Table::default(), cells, types: Vec::new(), faces }
     }
 
     /// Appends a cell.
     pub fn push(&mut self, vertices: impl IntoIterator<Item = u32>) {
         append(&mut self.cells, vertices);
+        self.types.push(self.shape.vtk());
     }
 
     /// Appends a polyhedron with the corners of its faces.
@@ -172,7 +179,7 @@ impl Grid {
         vertices: impl IntoIterator<Item = u32>,
         faces: impl ExactSizeIterator<Item = &'f [u32]>,
     ) {
-        append(&mut self.cells, vertices);
+        self.push(vertices);
         let mut stream = vec![faces.len() as u32];
         for corners in faces {
             stream.push(corners.len() as u32);
@@ -195,7 +202,7 @@ impl Grid {
             vtu::Array::new("Points", "Points", "Float64", 3, coordinates),
             vtu::Array::new("Cells", "connectivity", "Int64", 1, indices(&self.cells)),
             vtu::Array::new("Cells", "offsets", "Int64", 1, ends(&self.cells)),
-            vtu::Array::new("Cells", "types", "UInt8", 1, vec![self.shape.vtk(); self.cells.len()]),
+            vtu::Array::new("Cells", "types", "UInt8", 1, self.types.clone()),
         ];
         if !self.faces.is_empty() {
             arrays.push(vtu::Array::new("Cells", "faces", "Int64", 1, indices(&self.faces)));

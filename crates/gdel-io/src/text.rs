@@ -49,9 +49,10 @@ pub(super) fn line_at(bytes: &[u8], offset: usize) -> usize {
 }
 
 /// Returns the fields of a line: separated by semicolons or commas where it has any, else by white
-/// space.
+/// space. Commas between digits are those of decimals if all fields are separated otherwise.
 pub(super) fn fields(line: &[u8]) -> impl Iterator<Item = &[u8]> {
     let separator = [b';', b','].into_iter().find(|separator| line.contains(separator));
+    let separator = separator.filter(|&separator| separator == b';' || !has_decimal_commas(line));
     line.split(move |b| separator.map_or(b.is_ascii_whitespace(), |s| *b == s))
         .map(<[u8]>::trim_ascii)
         .filter(move |field| separator.is_some() || !field.is_empty())
@@ -66,8 +67,24 @@ pub(super) fn number(field: &[u8], line: usize) -> Result<f64, FormatError> {
     }
 }
 
+/// Returns whether white space separates the fields of a line, some of which have a comma as the decimal
+/// mark: split at the commas, they would be no numbers.
+fn has_decimal_commas(line: &[u8]) -> bool {
+    let mut words = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
+    let mut rest = words.clone().skip(1);
+    rest.next().is_some()
+        && words.clone().any(|word| word.contains(&b','))
+        && words
+            .all(|word| word.first().is_some_and(|&b| b != b',') && word.last() != Some(&b',') && parse(word).is_some())
+}
+
+/// Parses a number, whose decimal mark may be a comma: a field has no others.
 fn parse(field: &[u8]) -> Option<f64> {
-    std::str::from_utf8(field).ok()?.parse().ok()
+    let text = std::str::from_utf8(field).ok()?;
+    text.parse().ok().or_else(|| {
+        let (whole, fraction) = text.split_once(',')?;
+        format!("{whole}.{fraction}").parse().ok()
+    })
 }
 
 /// Returns the names of the coordinates, for messages.
@@ -255,7 +272,11 @@ impl<'w, const D: usize> Table<'w, D> {
         /// The number of names that a message quotes.
         const QUOTED: usize = 8;
         let column = |name: &str| row.iter().position(|field| bare(field).eq_ignore_ascii_case(name.as_bytes()));
-        let found = ["x", "y", "z"].map(column);
+        let mut found = ["x", "y", "z"].map(column);
+        if D == 2 && found[..2] == [None; 2] {
+            let first = |names: &[&str]| names.iter().find_map(|name| column(name));
+            found[..2].copy_from_slice(&[first(&["lon", "lng", "longitude"]), first(&["lat", "latitude"])]);
+        }
         if found[..D].contains(&None) {
             let names: Vec<String> = row.iter().take(QUOTED).map(|name| quote(name)).collect();
             let more = if row.len() > QUOTED { ", …" } else { "" };
@@ -389,7 +410,9 @@ pub(super) fn read_csv_with_values<const D: usize>(
 ) -> Result<(PointCloud<D>, Vec<f64>), FormatError> {
     check_encoding(bytes)?;
     let first = lines(bytes).map(|(_, line)| line).find(|line| !line.is_empty()).unwrap_or_default();
-    let Some(delimiter) = [b';', b',', b'\t'].into_iter().find(|d| first.contains(d)) else {
+    // Between tabs, commas are those of decimals.
+    let delimiters = if has_decimal_commas(first) { [b';', b'\t', b'\t'] } else { [b';', b',', b'\t'] };
+    let Some(delimiter) = delimiters.into_iter().find(|d| first.contains(d)) else {
         return read_with_values(bytes, wanted);
     };
     let text = without_mark(bytes);

@@ -15,7 +15,7 @@ use crate::{
     mesh::MeshInfo,
     options::Options,
     predicates::filter::PredicateContext,
-    slots::{MarkedSlots, Slots},
+    slots::Slots,
     stats::{Phase, Restart, UpdateStats},
 };
 use rustc_hash::FxHashMap;

@@ -356,6 +356,11 @@ where
     fn claim(&mut self, _v: u32) -> bool {
         true
     }
+
+    fn discard(&mut self, t: u32) {
+        self.with(t, |slot| (slot.simplex, slot.has_changed) = ([NONE; N], true));
+        self.state.get_mut().free.push(t);
+    }
 }
 
 impl<const D: usize, const N: usize> MarkedSlots<N> for Sparse<'_, '_, D, N>
@@ -375,11 +380,6 @@ where
     fn first_and(&self, t: u32, k: usize) -> [u32; 2] {
         let simplex = self.simplex(t);
         [simplex[0], simplex[k % N]]
-    }
-
-    fn discard(&mut self, t: u32) {
-        self.with(t, |slot| (slot.simplex, slot.has_changed) = ([NONE; N], true));
-        self.state.get_mut().free.push(t);
     }
 
     fn places(&self) -> SparsePlaces {

@@ -40,9 +40,13 @@ pub(super) fn insert(
         match cavity(region, vertices, p, start) {
             Ok(start) => {
                 let inserted = region.mesh.insert(vertices, p, start, &mut scratch)?;
-                last = inserted.expect("nobody disturbs the only thread");
+                // No other thread holds tetrahedra, so only those of a region that is no triangulation are taken twice.
+                last = inserted.ok_or(Aborted::Inconsistent("a cavity meets itself"))?;
                 let star = links.star(&region.mesh, p, last)?;
                 region.note(star.used().map(|triangle| triangle.tetrahedron));
+            }
+            Err(around) if around.is_empty() => {
+                return Err(Aborted::Inconsistent("a walk to a point does not end").into());
             }
             Err(around) => {
                 lacking.extend(around);
@@ -94,7 +98,8 @@ fn walk(region: &Region, here: &PredicatesAt<'_, '_, 3>, start: u32) -> Result<u
             return Err(mesh.vertices(start).into());
         }
     }
-    loop {
+    // Splaying has proven what it changed. On what a device has wrongly called certain, a walk may go round.
+    for _ in 0..mesh.tetrahedra.len() {
         let v = mesh.vertices(t);
         if mesh.is_ghost(t) {
             return Ok(t);
@@ -109,4 +114,5 @@ fn walk(region: &Region, here: &PredicatesAt<'_, '_, 3>, start: u32) -> Result<u
             return Err(v.into());
         }
     }
+    Err(Vec::new())
 }

@@ -157,7 +157,7 @@ fn is_hull_edge(mesh: &Triangulation3, t: u32, x: usize, y: usize) -> bool {
     let mut at = t;
     let mut through = (0..4).find(|&k| k != x && k != y).unwrap_or(0);
     // Around the edge: out through the one facet at it that was not the way in.
-    loop {
+    for _ in 0..mesh.tetrahedra.len() {
         let across = mesh.neighbors[at as usize][through];
         at = across >> 2;
         if at == t {
@@ -170,6 +170,8 @@ fn is_hull_edge(mesh: &Triangulation3, t: u32, x: usize, y: usize) -> bool {
         let out = (0..4).find(|&k| k != across as usize % 4 && corners[k] != vx && corners[k] != vy);
         through = out.unwrap_or(0);
     }
+    // That is no triangulation; the edge is left as it is.
+    true
 }
 
 /// Returns an unused slot.

@@ -171,7 +171,12 @@ impl Region {
         let infinite = mesh.infinite;
         *gathers = [gathers[0] + 1, gathers[1] + slots.len()];
         let fits = |v: &[u32; 4]| v[..3].iter().all(|&v| v < infinite) && v[3] <= infinite;
-        let fit = parallel::map_ranges(threads, tetrahedra.len(), |range| tetrahedra[range].iter().all(fits));
+        let end = first + tetrahedra.len();
+        let is_here = |across: &[u32; 4]| across.iter().all(|across| ((across >> 2) as usize) < end);
+        let fit = parallel::map_ranges(threads, tetrahedra.len(), |range| {
+            tetrahedra[range.clone()].iter().all(fits)
+                && neighbors.get(range).is_some_and(|some| some.iter().all(is_here))
+        });
         if [neighbors.len(), slots.len()] != [tetrahedra.len(); 2] || fit.contains(&false) {
             return Err(DO_NOT_FIT);
         }

@@ -35,7 +35,7 @@ pub(crate) struct Complex<'a> {
     pub(crate) tetrahedra: &'a [[u32; 4]],
     /// The tetrahedron across each facet; none where the facet has one tetrahedron only, or more
     /// than two.
-    across: Vec<[u32; 4]>,
+    pub(crate) across: Vec<[u32; 4]>,
     /// The facets of one tetrahedron only.
     pub(crate) hull: Vec<Side>,
     pub(crate) vertices: usize,

@@ -4,13 +4,18 @@ use crate::{
     d3::mesh::FACETS,
     parallel::{self, Threads},
     predicates::{
-        Sign, insphere, orient3d,
+        Sign,
+        exact::power_sign,
+        insphere, orient3d,
         symbolic::{break_tie, without},
     },
 };
 use crate::{
     d3::verify::complex::{Complex, Side},
-    verify::report::{Defect, Findings},
+    verify::{
+        input::Input,
+        report::{Defect, Findings},
+    },
 };
 
 fn at<const N: usize>(points: &[[f64; 3]], vertices: [u32; N]) -> [[f64; 3]; N] {
@@ -37,19 +42,30 @@ pub(crate) fn check_orientation(points: &[[f64; 3]], tetrahedra: &[[u32; 4]]) ->
     parts.into_iter().collect()
 }
 
+/// Returns the sign of the in-sphere determinant of the last of five points, or that of the lifted points
+/// with weights; then, if it vanishes, that of the tie.
+pub(crate) fn insphere_of(input: &Input<3>, five: [u32; 5]) -> [Sign; 2] {
+    let [pa, pb, pc, pd, pe] = at(&input.points, five);
+    let sign = if input.weights.is_empty() {
+        insphere(pa, pb, pc, pd, pe)
+    } else {
+        power_sign([pa, pb, pc, pd, pe], five.map(|v| input.weights[v as usize]))
+    };
+    match sign {
+        0 => [0, break_tie(five, |left_out| orientation(&input.points, without(five, left_out)))],
+        sign => [sign, 0],
+    }
+}
+
 /// Checks the Delaunay property and that of the ties. Needs positive orientation.
-pub(crate) fn check_delaunay(points: &[[f64; 3]], complex: &Complex<'_>) -> (Findings, Findings) {
+pub(crate) fn check_delaunay(input: &Input<3>, complex: &Complex<'_>) -> (Findings, Findings) {
     let parts = parallel::map_ranges(Threads::All, complex.tetrahedra.len(), |range| {
         let (mut delaunay, mut ties) = (Findings::default(), Findings::default());
         for (Side { tetrahedron, k }, beyond) in complex.inner_facets(range) {
             let [a, b, c, d] = complex.tetrahedra[tetrahedron];
-            let five = [a, b, c, d, beyond];
-            let [pa, pb, pc, pd, pe] = at(points, five);
-            let (findings, kind) = match insphere(pa, pb, pc, pd, pe) {
-                1 => (&mut delaunay, "is inside the circumsphere"),
-                0 if break_tie(five, |left_out| orientation(points, without(five, left_out))) > 0 => {
-                    (&mut ties, "is on the circumsphere, and inside by the order of the indices")
-                }
+            let (findings, kind) = match insphere_of(input, [a, b, c, d, beyond]) {
+                [1, _] => (&mut delaunay, "is inside the circumsphere"),
+                [0, 1] => (&mut ties, "is on the circumsphere, and inside by the order of the indices"),
                 _ => continue,
             };
             findings.add(|| Defect::at_tetrahedron(tetrahedron, format!("point {beyond}, beyond facet {k}, {kind}")));

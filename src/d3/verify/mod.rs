@@ -8,8 +8,10 @@ use crate::{
     d3::Mesh3,
     error::Error,
     input::points::Points3,
+    predicates::orient3d,
     verify::{
         Check, Defect, Outcome, Report,
+        hidden::Simplices,
         input::{Input, dimension_3d},
     },
 };
@@ -43,6 +45,10 @@ pub struct MeshView3<'a> {
     pub duplicate_of: Option<&'a [u32]>,
     /// The affine dimension of the points: see [`Mesh3::dimension`].
     pub dimension: Option<u8>,
+    /// The weights of the points, if the mesh is to be their regular triangulation: see [`Mesh3::weights`].
+    pub weights: Option<&'a [f64]>,
+    /// The points that are no vertices because of their weights: see [`Mesh3::hidden`].
+    pub hidden: Option<&'a [u32]>,
 }
 
 impl<'a> MeshView3<'a> {
@@ -60,12 +66,14 @@ impl<'a> From<&'a Mesh3> for MeshView3<'a> {
             hull: Some(&mesh.hull),
             duplicate_of: Some(&mesh.duplicate_of),
             dimension: Some(mesh.dimension),
+            weights: (!mesh.weights.is_empty()).then_some(&mesh.weights),
+            hidden: Some(&mesh.hidden),
         }
     }
 }
 
-/// Checks that `mesh`, whoever computed it, is the Delaunay triangulation of `points`, except for
-/// those that it states to be [unused](Mesh3::is_unused).
+/// Checks that `mesh`, whoever computed it, is the Delaunay triangulation of `points`, or the regular one
+/// if it states weights, except for those that it states to be [unused](Mesh3::is_unused).
 ///
 /// ```
 /// use gdel::{MeshView3, verify3d};
@@ -79,11 +87,11 @@ impl<'a> From<&'a Mesh3> for MeshView3<'a> {
 /// # Errors
 ///
 /// Returns [`Error::NotFinite`] when a coordinate is NaN or infinite, and [`Error::TooManyPoints`]
-/// when an index cannot name every point. A defect of the mesh is not an error but a failed check
+/// when an index cannot name every point; for weights [`Error::ValueCount`] and [`Error::BadWeight`]. A defect of the mesh is not an error but a failed check
 /// in the [`Report`].
 pub fn verify3d<'p, 'm>(points: impl Into<Points3<'p>>, mesh: impl Into<MeshView3<'m>>) -> Result<Report, Error> {
     let mesh = mesh.into();
-    let input = Input::new(points.into(), mesh.duplicate_of, dimension_3d)?;
+    let input = Input::new(points.into(), mesh.weights, mesh.duplicate_of, dimension_3d)?;
     let mut report = input.report(mesh.dimension, mesh.duplicate_of);
     report.counts.tetrahedra = mesh.tetrahedra.len();
     let indices = complex::check_indices(mesh.tetrahedra, input.points.len()).into();
@@ -101,12 +109,20 @@ pub fn verify3d<'p, 'm>(points: impl Into<Points3<'p>>, mesh: impl Into<MeshView
     report.decide(Check::Orientation, || geometry::check_orientation(&input.points, mesh.tetrahedra));
     report.decide(Check::Facets, || complex.check_facets());
     report.decide(Check::Neighbors, || mesh.neighbors.map(|stated| complex.check_neighbors(stated)));
-    report.decide_delaunay(|| geometry::check_delaunay(&input.points, &complex));
+    report.decide_delaunay(|| geometry::check_delaunay(&input, &complex));
     report.decide(Check::Hull, || mesh.hull.map(|stated| complex.check_hull(stated)));
     let mut ridges = Vec::new();
     report.decide(Check::HullClosed, || complex.check_hull_closed(&mut ridges));
     report.decide(Check::HullConvex, || geometry::check_hull_convex(&input.points, &complex, &ridges));
     report.decide(Check::EulerCharacteristic, || complex.check_euler_characteristic());
     report.decide(Check::Covering, || geometry::check_covering(&input.points, &complex));
+    let simplices = Simplices {
+        simplices: mesh.tetrahedra,
+        across: &|t, k| complex.across[t][k],
+        orientation: |[a, b, c, d]| orient3d(a, b, c, d),
+        is_below: &|[a, b, c, d], e| geometry::insphere_of(&input, [a, b, c, d, e]).iter().any(|&sign| sign > 0),
+        blame: Defect::at_tetrahedron,
+    };
+    report.decide(Check::Hidden, || simplices.check(&input, mesh.hidden));
     Ok(report)
 }

@@ -1,7 +1,7 @@
 //! The alpha complex for one radius.
 
 use super::{
-    super::{sets::DisjointSets, sorted::Sorted, voronoi::ring},
+    super::{complex::Complex, sets::DisjointSets, sorted::Sorted, voronoi::ring},
     AlphaEdges, AlphaShape,
     edges::Edges,
     given_edge,
@@ -55,7 +55,7 @@ pub enum FaceClass {
 pub struct AlphaComplex<'s, const D: usize = 3, const N: usize = 4> {
     shape: &'s AlphaShape<D, N>,
     alpha: Alpha,
-    /// Whether each simplex of the sorted mesh is part of the complex.
+    /// Whether each simplex of the sorted mesh is part of the complex, or what is in its place.
     is_solid: Vec<bool>,
 }
 
@@ -65,8 +65,8 @@ where
 {
     pub(super) fn new(shape: &'s AlphaShape<D, N>, alpha: f64) -> Self {
         let alpha = shape.radii.alpha(alpha);
-        let is_solid = |(simplex, &squared): (&[u32; N], &f64)| shape.radii.compare_with(simplex, squared, alpha) <= 0;
-        let is_solid = shape.radii.mesh.complex.simplices.iter().zip(&shape.simplices).map(is_solid).collect();
+        let is_solid = |(simplex, squared): (&[u32], f64)| shape.radii.compare_with(simplex, squared, alpha) <= 0;
+        let is_solid = shape.cells().map(is_solid).collect();
         AlphaComplex { shape, alpha, is_solid }
     }
 
@@ -81,14 +81,21 @@ where
     ///
     /// The surface is closed: every edge belongs to as many triangles in one direction as in the
     /// other, in 2D every vertex to as many edges that end there as start there. Where solids touch
-    /// in an edge or a vertex only, these are more than one.
+    /// in an edge or a vertex only, these are more than one. Triangles of points in a plane of space, and edges
+    /// of points on a line in 2D, come from both sides.
     pub fn surface(&self) -> impl Iterator<Item = [u32; D]> + '_ {
         let mesh = &self.shape.radii.mesh;
-        self.solid().flat_map(move |t| {
+        let solid = self.solid().flat_map(move |t| {
             let t = mesh.places[t] as usize;
             let is_outer = move |&k: &usize| mesh.complex.across(t, k).is_none_or(|across| !self.is_solid[across]);
             (0..N).filter(is_outer).map(move |k| mesh.given(facet(&mesh.complex.simplices[t], k)))
-        })
+        });
+        let flat = self.shape.flat_facets().filter(|&(t, _)| self.is_solid[t]);
+        solid.chain(flat.flat_map(|(_, facet)| {
+            let mut other = facet;
+            other.swap(0, 1);
+            [facet, other]
+        }))
     }
 
     /// Returns for each simplex the number of its component, and the number of components.
@@ -96,12 +103,12 @@ where
     /// first simplices; those that are no part of the complex have [`NONE`](crate::NONE).
     pub fn components(&self) -> (Vec<u32>, usize) {
         let Sorted { complex, places, .. } = &self.shape.radii.mesh;
-        let mut sets = DisjointSets::new(self.is_solid.len());
-        for t in (0..self.is_solid.len()).filter(|&t| self.is_solid[t]) {
-            for across in (0..N).filter_map(|k| complex.across(t, k)).filter(|&across| self.is_solid[across]) {
-                sets.unite(t as u32, across as u32);
-            }
+        if let Some(flat) = &self.shape.flat {
+            let mut sets = self.united(&flat.complex);
+            let is_first = |&t: &u32| self.is_solid[t as usize] && sets.find(t) == t;
+            return (Vec::new(), (0..self.is_solid.len() as u32).filter(is_first).count());
         }
+        let mut sets = self.united(complex);
         let mut labels = vec![NONE; self.is_solid.len()];
         let mut label_of_set = labels.clone();
         let mut count = 0;
@@ -116,10 +123,22 @@ where
         (labels, count as usize)
     }
 
+    /// Returns what hangs together across facets.
+    fn united<const K: usize>(&self, complex: &Complex<'_, D, K>) -> DisjointSets {
+        let mut sets = DisjointSets::new(self.is_solid.len());
+        for t in (0..self.is_solid.len()).filter(|&t| self.is_solid[t]) {
+            for across in (0..K).filter_map(|k| complex.across(t, k)).filter(|&across| self.is_solid[across]) {
+                sets.unite(t as u32, across as u32);
+            }
+        }
+        sets
+    }
+
     /// Returns all facets and what they are: in the order of [`AlphaShape::facets`].
     pub fn facets(&self) -> impl Iterator<Item = ([u32; D], FaceClass)> + '_ {
-        let facets = self.facet_classes();
-        facets.map(|((t, k), class)| (self.shape.given_facet(t, k), class))
+        let facets = self.facet_classes().map(|((t, k), class)| (self.shape.given_facet(t, k), class));
+        let class = |t: usize| if self.is_solid[t] { FaceClass::Singular } else { FaceClass::Exterior };
+        facets.chain(self.shape.flat_facets().map(move |(t, facet)| (facet, class(t))))
     }
 
     /// Returns the facets of the sorted mesh as (simplex, opposite vertex), and what they are.
@@ -157,16 +176,14 @@ where
     /// Classifies all vertices of the sorted mesh by the faces around them.
     fn classify_vertices(&self) -> Vec<FaceClass> {
         let complex = &self.shape.radii.mesh.complex;
-        let start = if complex.simplices.is_empty() { FaceClass::Singular } else { FaceClass::Interior };
+        let start = if complex.simplices.is_empty() { FaceClass::Regular } else { FaceClass::Interior };
         let mut classes = vec![start; complex.points().len()];
         let mut is_face = vec![false; classes.len()];
-        for (t, simplex) in complex.simplices.iter().enumerate() {
-            for &v in simplex {
-                is_face[v as usize] |= self.is_solid[t];
-                if !self.is_solid[t] {
-                    classes[v as usize] = FaceClass::Regular;
-                }
-            }
+        for (_, (cell, _)) in self.shape.cells().enumerate().filter(|&(t, _)| self.is_solid[t]) {
+            cell.iter().for_each(|&v| is_face[v as usize] = true);
+        }
+        for (_, simplex) in complex.simplices.iter().enumerate().filter(|&(t, _)| !self.is_solid[t]) {
+            simplex.iter().for_each(|&v| classes[v as usize] = FaceClass::Regular);
         }
         for ((t, k), class) in self.facet_classes() {
             for v in facet(&complex.simplices[t], k) {
@@ -225,6 +242,13 @@ impl AlphaComplex<'_, 3, 4> {
         let complex = &self.shape.radii.mesh.complex;
         let edges = self.shape.edge_values();
         let (edge, t) = (edges.edges[e], edges.simplex[e] as usize);
+        if let Some(flat) = &self.shape.flat {
+            return match flat.has_solid(t, edge, &self.is_solid) {
+                true => FaceClass::Regular,
+                false if self.is_own(&edge, edges.own[e]) => FaceClass::Singular,
+                false => FaceClass::Exterior,
+            };
+        }
         let mut around = Vec::new();
         let is_closed = ring(complex, edge[0], edge[1], t, &mut around);
         if is_closed && around.iter().all(|&t| self.is_solid[t as usize]) {

@@ -110,7 +110,7 @@ impl Edges {
     }
 
     /// Appends an edge of a simplex, with its own squared radius, as if nothing were around it.
-    fn push(&mut self, edge: [u32; 2], own: f64, simplex: u32) {
+    pub(super) fn push(&mut self, edge: [u32; 2], own: f64, simplex: u32) {
         self.edges.push(edge);
         self.own.push(own);
         self.regular.push(f64::INFINITY);

@@ -2,15 +2,19 @@
 
 mod complex;
 mod edges;
+mod flat;
 mod groups;
 mod rounding;
+mod singular;
 mod values;
 
 pub use complex::{AlphaComplex, FaceClass};
 pub use edges::AlphaEdges;
+pub use singular::{SingularEdges, singular};
 
 use super::{
     complex::Complex,
+    flat::Flat,
     sorted::{Sorted, inverse},
 };
 use crate::{
@@ -22,6 +26,7 @@ use crate::{
     parallel::{self, Threads},
 };
 use edges::{Edges, is_listed, largest, smallest};
+use flat::FlatCells;
 use groups::Groups;
 use std::sync::OnceLock;
 use values::Radii;
@@ -33,6 +38,11 @@ use values::Radii;
 /// *alpha shape* is the space that it fills. With a growing radius it goes from the points to their
 /// convex hull. A radius, and not its square as in CGAL, is what every function here takes and
 /// returns.
+///
+/// Points in a plane of space, or on a line, have no solid. In the place of simplices are the triangles of
+/// the plane, or the edges of the line: they are [singular](FaceClass::Singular) faces, alpha is found for
+/// them, their components count, and [`surface`](AlphaComplex::surface) has both of their sides if they are
+/// facets. For an infinite alpha that is the convex hull.
 ///
 /// Which simplices and faces belong to a complex is decided exactly, for all `f64` alpha. Radii
 /// that are returned have a relative error below 10⁻¹⁰, if nothing else is said.
@@ -81,6 +91,8 @@ pub struct AlphaShape<const D: usize = 3, const N: usize = 4> {
     edges: OnceLock<Edges>,
     /// The radii from which on each vertex is regular, and interior, computed at the first request.
     vertices: OnceLock<Vec<[f64; 2]>>,
+    /// What points in a plane or on a line have instead of simplices.
+    flat: Option<FlatCells<D>>,
     /// The simplices in groups of exactly the same circumradius, in ascending order.
     groups: OnceLock<Groups>,
 }
@@ -143,8 +155,10 @@ where
     /// [`Error::PointCount`], [`Error::NotFinite`] or [`Error::BrokenMesh`] as for
     /// [`Locator::new`](crate::Locator::new).
     pub fn new<'a>(mesh: &'a impl Mesh<D, N>, points: impl Into<Points<'a, D>>) -> Result<Self, Error> {
-        let mesh = Sorted::new(&Complex::new(mesh, points.into())?);
-        let radii = Radii::new(mesh, rounding::UNIT);
+        let given = Complex::new(mesh, points.into())?;
+        let flat = Flat::new(&given)?;
+        let radii = Radii::new(Sorted::new(&given), rounding::UNIT);
+        let flat = flat.map(|flat| FlatCells::new(&flat, &radii));
         let complex = &radii.mesh.complex;
         let mut simplices = vec![(0.0, [false; N]); complex.simplices.len()];
         parallel::for_chunks(Threads::All, &mut simplices, |start, chunk| {
@@ -170,7 +184,7 @@ where
         let facets = parallel::joined(facets);
         let simplices: Vec<f64> = simplices.into_iter().map(|(squared, _)| squared).collect();
         let (edges, vertices, groups) = Default::default();
-        Ok(AlphaShape { radii, simplices, facets, edges, vertices, groups })
+        Ok(AlphaShape { radii, simplices, facets, edges, vertices, flat, groups })
     }
 
     /// Returns the simplices and faces that are part of the complex for a radius.
@@ -198,13 +212,12 @@ where
     }
 
     /// Returns the smallest alpha whose solid has all vertices and at most so many components,
-    /// which hang together across facets; `None` if `components` is 0 or the mesh has no simplices.
+    /// which hang together across facets; `None` if `components` is 0 or there are less than two vertices.
     ///
     /// The result is not rounded down: the complex at this alpha has the promised properties. Where many
     /// radii are equal up to rounding, [`auto_alpha`](Self::auto_alpha) takes all of them.
     pub fn find_alpha(&self, components: usize) -> Option<f64> {
-        let t = self.groups().first_with(components, &self.radii.mesh.complex)?;
-        Some(radius_rounded_up::<D, N>(&self.radii.mesh.complex.corners(t)))
+        Some(self.radius_rounded_up(self.cell(self.first_with(components)?).0))
     }
 
     /// Returns the radii at which a simplex or a face becomes part of the complex, in ascending
@@ -224,7 +237,7 @@ where
     /// ```
     pub fn critical_values(&self) -> Vec<f64> {
         let complex = &self.radii.mesh.complex;
-        let simplices = self.simplices.iter().zip(&*complex.simplices).map(|(&r, vertices)| (face(vertices), r));
+        let simplices = self.cells().map(|(vertices, r)| (face(vertices), r));
         let facets =
             self.listed_facets().zip(&self.facets).map(|((t, k), &r)| (face(&facet(&complex.simplices[t], k)), r));
         let Edges { edges, own, .. } = self.edge_values();
@@ -247,11 +260,37 @@ where
 
     /// Returns a radius that is at most 10⁻⁹ of its value above that of a face.
     fn radius_above(&self, (face, squared): (&[u32], f64)) -> f64 {
-        if squared.is_nan() {
-            let points: Vec<[f64; D]> = face.iter().map(|&v| self.radii.mesh.complex.point(v)).collect();
-            return radius_rounded_up::<D, N>(&points);
+        if squared.is_nan() { self.radius_rounded_up(face) } else { self.radius(squared) * (1.0 + 2e-10) }
+    }
+
+    /// Returns the radius of a face, rounded up.
+    fn radius_rounded_up(&self, face: &[u32]) -> f64 {
+        let points: Vec<[f64; D]> = face.iter().map(|&v| self.radii.mesh.complex.point(v)).collect();
+        radius_rounded_up::<D, N>(&points)
+    }
+
+    /// Returns the vertices and the scaled squared radius of simplex `t`, or of what is in its place.
+    fn cell(&self, t: usize) -> (&[u32], f64) {
+        match &self.flat {
+            Some(flat) => flat.cell(t),
+            None => (&self.radii.mesh.complex.simplices[t], self.simplices[t]),
         }
-        self.radius(squared) * (1.0 + 2e-10)
+    }
+
+    /// Returns the vertices and the scaled squared radii of the simplices, or of what is in their place.
+    fn cells(&self) -> impl Iterator<Item = (&[u32], f64)> {
+        let simplices = self.radii.mesh.complex.simplices.iter().map(|simplex| &simplex[..]);
+        let flat = self.flat.iter().flat_map(FlatCells::cells);
+        simplices.zip(self.simplices.iter().copied()).chain(flat)
+    }
+
+    /// Returns a simplex, or what is in its place, with whose radius the solid has all vertices and at most so many
+    /// components.
+    fn first_with(&self, components: usize) -> Option<usize> {
+        match &self.flat {
+            Some(flat) => flat.first_with(self.groups(), components),
+            None => self.groups().first_with(components, &self.radii.mesh.complex),
+        }
     }
 
     /// Returns the radius from which on each simplex is part of the complex, its circumradius.
@@ -264,7 +303,7 @@ where
     /// counter-clockwise as seen from outside the simplex with the lower index, and in 2D have the
     /// triangle with the lower index on the left.
     pub fn facets(&self) -> impl Iterator<Item = ([u32; D], Interval)> + '_ {
-        self.listed_facets().zip(&self.facets).map(|((t, k), &own)| {
+        let facets = self.listed_facets().zip(&self.facets).map(|((t, k), &own)| {
             let complex = &self.radii.mesh.complex;
             let vertices = self.given_facet(t, k);
             let radius = |t: usize| self.radius_of(&complex.simplices[t], self.simplices[t]);
@@ -273,7 +312,19 @@ where
             let interior = other.map_or(f64::INFINITY, |other| one.max(other));
             let own = if own == f64::INFINITY { own } else { self.radius_of(&facet(&complex.simplices[t], k), own) };
             (vertices, Interval { singular: own.min(regular), regular, interior })
-        })
+        });
+        let never = f64::INFINITY;
+        facets.chain(self.flat_facets().map(move |(t, vertices)| {
+            let (cell, squared) = self.cell(t);
+            (vertices, Interval { singular: self.radius_of(cell, squared), regular: never, interior: never })
+        }))
+    }
+
+    /// Returns the facets that points in a plane or on a line have instead of simplices, as their vertices were
+    /// numbered in the mesh that was given.
+    fn flat_facets(&self) -> impl Iterator<Item = (usize, [u32; D])> + '_ {
+        let facets = self.flat.iter().flat_map(FlatCells::facets);
+        facets.map(|(t, facet)| (t, self.radii.mesh.given(facet)))
     }
 
     /// Returns all vertices, with the radii from which on they are part of the complex: always, as
@@ -326,9 +377,9 @@ where
     /// Returns the simplices in groups of the same radius.
     fn groups(&self) -> &Groups {
         self.groups.get_or_init(|| {
-            let simplex = |t: u32| (&self.radii.mesh.complex.simplices[t as usize][..], self.simplices[t as usize]);
+            let simplex = |t: u32| self.cell(t as usize);
             Groups::new(
-                self.simplices.len(),
+                self.cells().count(),
                 |t| simplex(t).1,
                 |t| self.radii.precise(simplex(t).0),
                 |t, u| self.radii.compare(simplex(t), simplex(u)),
@@ -338,7 +389,11 @@ where
 
     /// Returns the edges with their squared radii, which take longer than all others.
     fn edge_values(&self) -> &Edges {
-        self.edges.get_or_init(|| Euclidean::edges(&self.radii, &self.simplices, &self.facets))
+        self.edges.get_or_init(|| match &self.flat {
+            // In 2D the edges are facets.
+            Some(flat) if D == 3 => flat.edges(&self.radii),
+            _ => Euclidean::edges(&self.radii, &self.simplices, &self.facets),
+        })
     }
 
     /// Returns the squared radii from which on each vertex is regular, and interior.
@@ -351,11 +406,13 @@ where
         // A vertex without simplices is never within any.
         let interior = if complex.simplices.is_empty() { f64::INFINITY } else { 0.0 };
         let mut values = vec![[f64::INFINITY, interior]; complex.points().len()];
-        for (simplex, &squared) in complex.simplices.iter().zip(&self.simplices) {
+        for (simplex, squared) in self.cells() {
             for &v in simplex {
                 let [regular, interior] = &mut values[v as usize];
                 *regular = smallest(*regular, squared);
-                *interior = largest(*interior, squared);
+                if self.flat.is_none() {
+                    *interior = largest(*interior, squared);
+                }
             }
         }
         for ((t, k), &own) in self.listed_facets().zip(&self.facets) {

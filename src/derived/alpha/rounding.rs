@@ -1,14 +1,14 @@
 //! Radii that are equal up to the rounding of coordinates.
 
 use super::{AlphaEdges, AlphaShape};
-use crate::geometry::{Euclidean, Geometry, measure, radius_rounded_up, vector};
+use crate::geometry::{Euclidean, Geometry, measure, vector};
 
 /// By how much coordinates are taken to be off, in units of the largest one: a few roundings of `f64`.
 pub(super) const UNIT: f64 = 2.0 * f64::EPSILON;
 
 /// If a vertex may be off by more than this share of the inradius, the simplex is flat up to rounding, and may
 /// have any radius: the root of [`UNIT`], about.
-const MAX_RATIO: f64 = 1.0 / (1u64 << 26) as f64;
+pub(super) const MAX_RATIO: f64 = 1.0 / (1u64 << 26) as f64;
 
 impl<const D: usize, const N: usize> AlphaShape<D, N>
 where
@@ -31,9 +31,8 @@ where
     /// # Ok::<(), gdel::Error>(())
     /// ```
     pub fn auto_alpha(&self, components: usize) -> Option<f64> {
-        let complex = &self.radii.mesh.complex;
-        let t = self.groups().first_with(components, complex)?;
-        let radius = radius_rounded_up::<D, N>(&complex.corners(t));
+        let t = self.first_with(components)?;
+        let radius = self.radius_rounded_up(self.cell(t).0);
         Some(self.raised(radius, radius * (1.0 + self.tolerance(t))))
     }
 
@@ -46,12 +45,11 @@ where
 
     /// Returns the largest radius of a simplex that may be as small as the limit, or alpha if it is larger.
     fn raised(&self, alpha: f64, limit: f64) -> f64 {
-        let complex = &self.radii.mesh.complex;
         let mut raised = alpha;
-        for (t, (simplex, &squared)) in complex.simplices.iter().zip(&self.simplices).enumerate() {
+        for (t, (simplex, squared)) in self.cells().enumerate() {
             let is_above = |radius: f64| self.radii.compare_with(simplex, squared, self.radii.alpha(radius)) > 0;
             if is_above(raised) && !is_above(limit * (1.0 + self.tolerance(t))) {
-                raised = radius_rounded_up::<D, N>(&complex.corners(t));
+                raised = self.radius_rounded_up(simplex);
             }
         }
         raised
@@ -70,6 +68,9 @@ where
     /// η ≤ x·(r + η). For x up to 2⁻²⁶, the square is then between 1 ± 2.01·x times r², and the radius is off
     /// by less than 1.02·x times that of before and that of now.
     fn tolerance(&self, t: usize) -> f64 {
+        if let Some(flat) = &self.flat {
+            return flat.tolerance(t, &self.radii);
+        }
         let corners = self.radii.mesh.complex.corners(t).map(|p| self.radii.scaled(p));
         let lengths = corners[1..].iter().map(|&p| vector::norm(vector::minus(p, corners[0])));
         // Less than what rounding may have added to the measure.

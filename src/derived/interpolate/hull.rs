@@ -213,25 +213,3 @@ impl Cavity {
         }
     }
 }
-
-impl Complex<'_, 3, 4> {
-    /// Returns the facet of the hull across the edge of facet (t, k) opposite its vertex `apex`;
-    /// `None` if the mesh is broken.
-    fn hull_neighbor(&self, (mut t, mut k): (usize, usize), apex: u32) -> Option<(usize, usize)> {
-        // Turns around the edge, from facet k of t through the others. The other facet at the edge
-        // is opposite `turn`.
-        let mut turn = apex;
-        for _ in 0..=self.simplices.len() {
-            let leave = self.simplices[t].iter().position(|&v| v == turn)?;
-            let Some(next) = self.across(t, leave) else { return Some((t, leave)) };
-            // The facet between them has the edge and the vertex that was opposite the last facet.
-            turn = self.simplices[t][k];
-            k = self.facet_towards(next, t);
-            if k == 4 {
-                return None;
-            }
-            t = next;
-        }
-        None
-    }
-}

@@ -1,63 +1,49 @@
 //! Interpolation of values at the vertices.
 
 mod cavity;
+mod flat;
+mod gradients;
 mod hull;
 mod measures;
 mod natural;
 mod numeric;
+mod options;
+mod outside;
+mod smooth;
+mod table;
 
 pub use measures::StolenMeasures;
+pub use options::{Duplicates, Interpolation, Outside};
+pub use table::{Grid, WeightTable};
 
-use super::{Locator, locate::Place, queries::map_along_curve};
+use super::{
+    Locator,
+    border::nearest_place,
+    flat::{Flat, Shape},
+    locate::{Beyond, Place},
+    queries::map_along_curve,
+};
 use crate::{
     error::Error,
-    geometry::{Euclidean, barycentric},
+    geometry::{Euclidean, barycentric, facet},
     input::points::Points,
 };
 use natural::Scratch;
-
-/// How values are interpolated between vertices.
-///
-/// # Examples
-///
-/// ```
-/// use gdel::{Interpolation, Interpolator, Locator};
-///
-/// // The centre of a square: linear interpolation sees only one of its two triangles.
-/// let points = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0f64]];
-/// let mesh = gdel::delaunay2d(&points)?;
-/// let locator = Locator::new(&mesh, &points)?;
-/// let interpolator = Interpolator::new(&locator, &[1.0, 0.0, 0.0, 0.0])?;
-/// let at = |method| interpolator.interpolate(method, [0.5, 0.5]);
-/// assert_eq!(at(Interpolation::Sibson)?, 0.25);
-/// assert_eq!(at(Interpolation::Laplace)?, 0.25);
-/// assert!([0.0, 0.5].contains(&at(Interpolation::Linear)?));
-/// # Ok::<(), gdel::Error>(())
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum Interpolation {
-    /// Barycentric coordinates in the simplex that contains the point: continuous, and the fastest.
-    Linear,
-    /// Natural neighbours, weighted by the measures of the facets that the point's Voronoi cell
-    /// would have, divided by the distances (Belikov et al. 1997; Sugihara 1999): continuous, and
-    /// smooth except where natural neighbours change and at the vertices.
-    Laplace,
-    /// Natural neighbours, weighted by what the point's Voronoi cell would take from theirs (Sibson
-    /// 1981): smooth except at the vertices.
-    Sibson,
-}
+use std::{borrow::Cow, sync::OnceLock};
 
 /// Interpolates values that are given at the points of a mesh.
 ///
 /// All methods reproduce linear functions, within an error of 10⁻¹⁰ times the largest value, and
-/// the value of a vertex at the vertex. Outside the hull, and everywhere if the mesh has no
-/// simplices, there is no value: NaN. On the hull's boundary, where the point's Voronoi cell would
-/// be unbounded, the weights are the limits from inside, which depend only on the vertices in the
+/// the value of a vertex at the vertex. Outside the hull, the value is NaN unless
+/// [`outside`](Self::outside) says otherwise. On the hull's boundary, where the point's Voronoi cell
+/// would be unbounded, the weights are the limits from inside, which depend only on the vertices in the
 /// same plane or on the same line. Nearer to it than about 10⁻¹⁸ times the distances of the
-/// vertices, but not on it, interpolation is linear.
+/// vertices, but not on it, interpolation is linear. A query that is outside by less than the
+/// [tolerance](Locator) is moved inside, by no more than that; where the hull is thinner,
+/// interpolation is linear within the facet.
 ///
-/// Linear, Laplace and Sibson interpolation of the same values:
+/// Linear, Laplace and Sibson interpolation of the same values; those that are
+/// [smooth](Interpolation::is_smooth) also take up the gradients at the vertices:
 ///
 #[cfg_attr(doc, doc = concat!("<div>\n", include_str!("../../../docs/answers/interpolate.svg"), "</div>"))]
 ///
@@ -74,6 +60,8 @@ pub enum Interpolation {
 ///
 /// let queries = [[1.25, 2.5, 3.75], [4.0, 4.0, 4.0], [9.5, 0.0, 0.0f32]];
 /// let found = interpolator.interpolate_many(Interpolation::Sibson, &queries)?;
+/// assert_eq!(found.outside, 1);
+/// let found = found.values;
 /// assert!((found[0] - 2.5).abs() < 1e-12);
 /// assert_eq!(found[1], 8.0);
 /// assert!(found[2].is_nan());
@@ -82,7 +70,22 @@ pub enum Interpolation {
 #[derive(Debug)]
 pub struct Interpolator<'a, const D: usize = 3, const N: usize = 4> {
     locator: &'a Locator<'a, D, N>,
-    values: &'a [f64],
+    values: Cow<'a, [f64]>,
+    outside: Outside,
+    /// If the points are in a plane of space, locators of their shadows and of themselves within it.
+    plane: Option<Box<[Locator<'a, 2, 3>; 2]>>,
+    /// The gradients at the points, once they are needed.
+    gradients: OnceLock<Vec<[f64; D]>>,
+}
+
+/// The values at many queries: see [`Interpolator::interpolate_many`].
+#[derive(Debug, Clone, Default, PartialEq)]
+#[non_exhaustive]
+pub struct Interpolated {
+    /// The value at each query.
+    pub values: Vec<f64>,
+    /// How many queries were outside the hull.
+    pub outside: usize,
 }
 
 /// Interpolates values that are given at the points of a 2D mesh.
@@ -93,31 +96,100 @@ where
     Euclidean: StolenMeasures<D, N>,
 {
     /// Creates an interpolator for values at the points of a mesh, one per point. Those of
-    /// duplicates are not used.
+    /// duplicates are not used, unless [`duplicates`](Self::duplicates) says otherwise.
     ///
     /// # Errors
     ///
-    /// [`Error::ValueCount`] if there are not as many values as points.
+    /// [`Error::ValueCount`] if there are not as many values as points, [`Error::OutOfMemory`].
     pub fn new(locator: &'a Locator<'a, D, N>, values: &'a [f64]) -> Result<Self, Error> {
         let points = locator.complex.points().len();
         if values.len() != points {
             return Err(Error::ValueCount { values: values.len(), points });
         }
-        Ok(Interpolator { locator, values })
+        let plane = match &locator.flat {
+            Some(Flat { shape: Shape::Plane(plane), .. }) => Some(Box::new([
+                Locator::<2, 3>::new(&plane.mesh, &plane.shadows)?,
+                Locator::<2, 3>::new(&plane.mesh, &plane.points)?,
+            ])),
+            _ => None,
+        };
+        let (values, outside) = (Cow::Borrowed(values), Outside::default());
+        Ok(Interpolator { locator, values, outside, plane, gradients: OnceLock::new() })
     }
 
-    /// Returns the interpolated value at a point; NaN outside the hull.
+    /// Says which value there is outside the hull: by default NaN.
+    #[must_use]
+    pub fn outside(mut self, outside: Outside) -> Self {
+        self.outside = outside;
+        self
+    }
+
+    /// Says which value a vertex has if there are several points with its coordinates: by default that
+    /// of the first one.
     ///
     /// # Errors
     ///
-    /// [`Error::NotFinite`], or [`Error::BrokenMesh`] as for [`Locator::locate`].
-    pub fn interpolate(&self, method: Interpolation, query: [f64; D]) -> Result<f64, Error> {
-        Points::F64(&[query]).validate()?;
-        let Some(place) = self.locator.place(query)? else { return Ok(f64::NAN) };
-        Ok(self.value_at(method, query, place, &mut State::default()))
+    /// [`Error::DuplicateValues`] if values of equal points differ and that is to be an error. NaN
+    /// differs from all but NaN.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use gdel::{Duplicates, Error, Interpolation, Interpolator, Locator};
+    ///
+    /// let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.0, 0.0f64]];
+    /// let values = [1.0, 1.0, 1.0, 9.0];
+    /// let mesh = gdel::delaunay2d(&points)?;
+    /// let locator = Locator::new(&mesh, &points)?;
+    /// let interpolator = Interpolator::new(&locator, &values)?.duplicates(Duplicates::Mean)?;
+    /// assert_eq!(interpolator.interpolate(Interpolation::Linear, [0.0, 0.0])?, 5.0);
+    /// let differ = Interpolator::new(&locator, &values)?.duplicates(Duplicates::Error);
+    /// assert_eq!(differ.unwrap_err(), Error::DuplicateValues { first: 0, other: 3 });
+    /// # Ok::<(), gdel::Error>(())
+    /// ```
+    pub fn duplicates(mut self, duplicates: Duplicates) -> Result<Self, Error> {
+        let complex = &self.locator.complex;
+        let pairs = || (0..complex.points().len()).map(|i| (i, complex.representative(i as u32) as usize));
+        match duplicates {
+            Duplicates::First => {}
+            Duplicates::Mean => {
+                let mut sums = vec![(0.0, 0u32); complex.points().len()];
+                for (i, vertex) in pairs() {
+                    let (sum, count) = &mut sums[vertex];
+                    *sum += self.values[i];
+                    *count += 1;
+                }
+                let mean = |(i, (sum, count)): (usize, (f64, u32))| match count {
+                    0 | 1 => self.values[i],
+                    _ => sum / f64::from(count),
+                };
+                self.values = Cow::Owned(sums.into_iter().enumerate().map(mean).collect());
+                self.gradients = OnceLock::new();
+            }
+            Duplicates::Error => {
+                let bits = |i: usize| self.values[i] + 0.0;
+                let differs = |&(i, vertex): &(usize, usize)| bits(i).total_cmp(&bits(vertex)).is_ne();
+                if let Some((other, first)) = pairs().find(differs) {
+                    return Err(Error::DuplicateValues { first, other });
+                }
+            }
+        }
+        Ok(self)
     }
 
-    /// Returns the interpolated value at each of many points; NaN outside the hull.
+    /// Returns the interpolated value at a point.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NotFinite`], or [`Error::BrokenMesh`] as for [`Locator::locate`]; [`Error::BadOption`] for
+    /// [`Interpolation::CloughTocher`] in a 3D mesh that has tetrahedra.
+    pub fn interpolate(&self, method: Interpolation, query: [f64; D]) -> Result<f64, Error> {
+        self.check(method)?;
+        Points::F64(&[query]).validate()?;
+        Ok(self.value_at(method, &self.find(query)?, &mut State::default())?.0)
+    }
+
+    /// Returns the interpolated value at each of many points, and how many of them are outside the hull.
     ///
     /// # Errors
     ///
@@ -126,20 +198,29 @@ where
         &self,
         method: Interpolation,
         queries: impl Into<Points<'q, D>>,
-    ) -> Result<Vec<f64>, Error> {
-        map_along_curve(queries.into(), self.locator.key, |run| {
+    ) -> Result<Interpolated, Error> {
+        self.check(method)?;
+        let queries = queries.into();
+        let reach = self.locator.reach(queries);
+        let found = map_along_curve(queries, self.locator.key, |run| {
             let mut state = State::default();
-            let Some(places) = self.locator.places(run)? else { return Ok(vec![f64::NAN; run.len()]) };
-            Ok(run.iter().zip(places).map(|(&query, place)| self.value_at(method, query, place, &mut state)).collect())
-        })
+            let places = self.locator.places(run, reach)?;
+            let query = |(i, &at)| Query { at, reach, place: places.as_ref().map(|places| places[i]) };
+            let queries = run.iter().enumerate().map(query);
+            queries.map(|query| self.value_at(method, &query, &mut state)).collect()
+        })?;
+        let outside = found.iter().filter(|(_, is_outside)| *is_outside).count();
+        Ok(Interpolated { values: found.into_iter().map(|(value, _)| value).collect(), outside })
     }
 
-    /// Returns the vertices whose values are interpolated at a point, with their weights, which are
-    /// not negative and have the sum 1; `None` outside the hull.
+    /// Returns the vertices whose values are interpolated at a point, with their weights, which have
+    /// the sum 1; `None` where a [constant](Outside::Value) is the value. None is negative, except for
+    /// [`Outside::Linear`].
     ///
     /// # Errors
     ///
-    /// The same as for [`interpolate`](Self::interpolate).
+    /// The same as for [`interpolate`](Self::interpolate), and [`Error::BadOption`] for
+    /// [smooth](Interpolation::is_smooth) methods, in which all values have a weight.
     ///
     /// # Examples
     ///
@@ -156,52 +237,122 @@ where
     /// # Ok::<(), gdel::Error>(())
     /// ```
     pub fn weights(&self, method: Interpolation, query: [f64; D]) -> Result<Option<Vec<(u32, f64)>>, Error> {
+        check_weights(method)?;
         Points::F64(&[query]).validate()?;
         let mut state = State::default();
-        let Some(place) = self.locator.place(query)? else { return Ok(None) };
-        Ok(self.find_weights(method, query, place, &mut state).then_some(state.weights))
+        self.find_weights(method, &self.find(query)?, &mut state)?;
+        Ok((!state.weights.is_empty()).then_some(state.weights))
     }
 
-    fn value_at(&self, method: Interpolation, query: [f64; D], place: Place, state: &mut State<D>) -> f64 {
-        if !self.find_weights(method, query, place, state) {
-            return f64::NAN;
+    /// Finds the place of a query.
+    fn find(&self, at: [f64; D]) -> Result<Query<D>, Error> {
+        let reach = self.locator.reach(Points::F64(&[]));
+        Ok(Query { at, reach, place: self.locator.place(at, reach)? })
+    }
+
+    /// Returns the value at a query, and whether it is outside the hull.
+    fn value_at(&self, method: Interpolation, query: &Query<D>, state: &mut State<D>) -> Result<(f64, bool), Error> {
+        if method.is_smooth() {
+            return self.smooth_value(method, query, state);
+        }
+        let is_outside = self.find_weights(method, query, state)?;
+        Ok((self.weighted(&state.weights), is_outside))
+    }
+
+    /// Returns the mean of the values with these weights.
+    fn weighted(&self, weights: &[(u32, f64)]) -> f64 {
+        if weights.is_empty() {
+            return self.constant();
         }
         // A weight of 0 does not spread NaN and infinities.
-        let terms = state.weights.iter().filter(|&&(_, weight)| weight != 0.0);
+        let terms = weights.iter().filter(|&&(_, weight)| weight != 0.0);
         terms.map(|&(vertex, weight)| weight * self.values[vertex as usize]).sum()
     }
 
-    /// Puts the weights at a point into `state`, or returns `false` outside the hull.
-    fn find_weights(&self, method: Interpolation, query: [f64; D], place: Place, state: &mut State<D>) -> bool {
-        let State { scratch, weights } = state;
-        weights.clear();
-        let Place { simplex, beyond: None, on_facet } = place else { return false };
-        let vertices = self.locator.complex.simplices[simplex];
-        if on_facet && let Some(vertex) = vertices.into_iter().find(|&v| self.locator.complex.point(v) == query) {
+    /// Returns the value where there are no weights.
+    fn constant(&self) -> f64 {
+        // Without points, there is no constant.
+        if let Outside::Value(value) = self.outside { value } else { f64::NAN }
+    }
+
+    /// Checks that there is such an interpolation of these points.
+    fn check(&self, method: Interpolation) -> Result<(), Error> {
+        if method == Interpolation::CloughTocher && D == 3 && !self.locator.complex.simplices.is_empty() {
+            return Err(Error::BadOption {
+                option: "the interpolation in 3D",
+                range: "linear, or one by Laplace or Sibson",
+            });
+        }
+        Ok(())
+    }
+
+    /// Puts the weights at a query into `state`, none where there is a constant. Returns whether it is
+    /// outside the hull.
+    fn find_weights(&self, method: Interpolation, query: &Query<D>, state: &mut State<D>) -> Result<bool, Error> {
+        state.weights.clear();
+        let Some(Place { at, simplex, beyond, on_facet }) = query.place else {
+            return self.flat_weights(method, query, state);
+        };
+        let State { scratch, weights, simplex: found_in } = state;
+        *found_in = simplex;
+        let complex = &self.locator.complex;
+        let vertices = complex.simplices[simplex];
+        if let Some(Beyond { facet: k, near }) = beyond {
+            if near {
+                let (shares, _) = nearest_place(&facet(&complex.corners(simplex), k), at, self.locator.scale);
+                weights.extend(facet(&vertices, k).into_iter().zip(shares));
+            } else {
+                self.weights_outside(query.at, (simplex, k), weights);
+            }
+            return Ok(!near);
+        }
+        if on_facet && let Some(vertex) = vertices.into_iter().find(|&v| complex.point(v) == at) {
             weights.push((vertex, 1.0));
-            return true;
+            return Ok(false);
         }
         match method {
             Interpolation::Linear => {}
-            _ => natural::weights(self.locator, method, query, (simplex, on_facet), scratch, weights),
+            _ => natural::weights(self.locator, method, at, (simplex, on_facet), scratch, weights),
         }
         // Also where the Voronoi cell of the point is too long, because the hull is too near.
         if weights.is_empty() {
-            let shares = barycentric(&self.locator.complex.corners(simplex), query);
+            let shares = barycentric(&complex.corners(simplex), at);
             weights.extend(vertices.into_iter().zip(shares));
         }
-        true
+        Ok(false)
     }
+}
+
+/// A query, and where it is.
+struct Query<const D: usize> {
+    at: [f64; D],
+    /// How far from the hull it may be to count as inside.
+    reach: Option<[f64; D]>,
+    /// `None` if there are no simplices.
+    place: Option<Place<D>>,
 }
 
 /// Memory that is used again from one point to the next.
 struct State<const D: usize> {
     scratch: Scratch<D>,
     weights: Vec<(u32, f64)>,
+    /// The simplex that the point is in, if there are any; for points in a plane, the triangle there.
+    simplex: usize,
 }
 
 impl<const D: usize> Default for State<D> {
     fn default() -> Self {
-        State { scratch: Scratch::default(), weights: Vec::new() }
+        State { scratch: Scratch::default(), weights: Vec::new(), simplex: 0 }
     }
+}
+
+/// Checks that the weights of a method do not depend on the values.
+fn check_weights(method: Interpolation) -> Result<(), Error> {
+    if method.is_smooth() {
+        return Err(Error::BadOption {
+            option: "the interpolation whose weights are asked for",
+            range: "linear, or Laplace's or Sibson's",
+        });
+    }
+    Ok(())
 }

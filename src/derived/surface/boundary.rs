@@ -5,7 +5,15 @@
 //! sheets touch, and a vertex is split into as many as there are cycles of facets around it. Where two
 //! edges still have the same vertices, one of them gets a new vertex in its middle.
 
-use super::super::{complex::Complex, sets::DisjointSets, sorted::even_order};
+use super::{
+    super::{
+        complex::Complex,
+        groups::Groups,
+        sets::DisjointSets,
+        sorted::{even_order, inverse},
+    },
+    beyond::INFINITY,
+};
 use crate::{
     geometry::{Euclidean, Geometry, facet, factorial, vector},
     index::NONE,
@@ -28,7 +36,7 @@ pub(super) struct Boundary<const D: usize> {
 }
 
 /// A facet of a simplex of the solid.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Side {
     simplex: u32,
     facet: u8,
@@ -59,14 +67,21 @@ impl<const D: usize> Boundary<D> {
         };
         let mut mates = vec![[NONE; D]; sides.len()];
         parallel::for_chunks(Threads::All, &mut mates, |start, chunk| {
-            for (mates, &(vertices, side)) in chunk.iter_mut().zip(&sides[start..]) {
-                for (mate, v) in mates.iter_mut().zip(vertices) {
-                    let (next, from) = turn(complex, points, is_inside, side, v);
-                    // Only in a broken mesh there is no next facet.
-                    if let Some((vertices, _)) = sides.get(number(next) as usize) {
-                        let corner = vertices.iter().position(|&w| w == from).unwrap_or(0);
-                        *mate = number(next) * D as u32 + corner as u32;
-                    }
+            let mates = chunk.as_flattened_mut();
+            for h in 0..mates.len() {
+                if mates[h] != NONE {
+                    continue;
+                }
+                let (vertices, side) = sides[start + h / D];
+                let (next, from) = turn(complex, points, is_inside, side, vertices[h % D]);
+                // Only in a broken mesh there is no next facet.
+                let Some((vertices, _)) = sides.get(number(next) as usize) else { continue };
+                let corner = vertices.iter().position(|&w| w == from).unwrap_or(0);
+                let mate = number(next) as usize * D + corner;
+                mates[h] = mate as u32;
+                // The way back is the same. Other chunks find it themselves.
+                if let Some(back @ &mut NONE) = mate.checked_sub(start * D).and_then(|mate| mates.get_mut(mate)) {
+                    *back = (start * D + h) as u32;
                 }
             }
         });
@@ -89,14 +104,16 @@ impl<const D: usize> Boundary<D> {
         }
         let corners = self.facets.as_flattened();
         // Each edge in one of its two directions, with the corner opposite it.
-        let edge = |h: u32| {
-            let (f, i) = (h as usize / D, h as usize % D);
-            [corners[D * f + (i + 1) % D], corners[D * f + (i + 2) % D]]
-        };
-        let mut edges: Vec<([u32; 2], u32)> =
-            (0..corners.len() as u32).map(|h| (edge(h), h)).filter(|([a, b], _)| a < b).collect();
-        parallel::sort(Threads::All, &mut edges);
-        let doubled: Vec<u32> = edges.windows(2).filter(|pair| pair[0].0 == pair[1].0).map(|pair| pair[1].1).collect();
+        let edges = (0..corners.len() as u32).filter_map(|h| {
+            let [from, to] = [next(h, D), next(next(h, D), D)].map(|end| corners[end as usize]);
+            (from < to).then_some((from, (to, h)))
+        });
+        let mut around = Groups::new(self.sources.len() + self.middles.len(), edges);
+        let mut doubled = Vec::new();
+        around.for_each_sorted(|edges| {
+            let pairs = edges.windows(2).filter(|pair| pair[0].0 == pair[1].0);
+            doubled.extend(pairs.map(|pair| pair[1].1));
+        });
         let mut is_changed = vec![false; if doubled.is_empty() { 0 } else { self.facets.len() }];
         for &h in &doubled {
             let facets = [h, self.mates.as_flattened()[h as usize]].map(|h| h as usize / D);
@@ -156,35 +173,37 @@ impl<const D: usize> Boundary<D> {
 
     /// Numbers the vertices, one for each cycle of facets around a point.
     pub(super) fn split_vertices(&mut self) {
-        let mut cycles = DisjointSets::new(D * self.facets.len());
-        for (f, mates) in self.mates.iter().enumerate() {
-            for (i, &mate) in mates.iter().enumerate().filter(|&(_, &mate)| mate != NONE) {
-                let (across, opposite) = (mate as usize / D, mate as usize % D);
-                // The other corners are those at the ridge.
-                for (j, v) in self.facets[f].iter().enumerate().filter(|&(j, _)| j != i) {
-                    let is_same = |&l: &usize| l != opposite && self.facets[across][l] == *v;
-                    if let Some(l) = (0..D).find(is_same) {
-                        cycles.unite((D * f + j) as u32, (D * across + l) as u32);
+        let corners = self.facets.as_flattened();
+        // The cycle of each corner; and the first corner of each cycle.
+        let (mut cycles, mut firsts) = (vec![NONE; corners.len()], Vec::new());
+        let mut found = Vec::new();
+        for first in 0..corners.len() {
+            if cycles[first] != NONE {
+                continue;
+            }
+            let cycle = firsts.len() as u32;
+            firsts.push(corners[first]);
+            cycles[first] = cycle;
+            found.push(first);
+            while let Some(corner) = found.pop() {
+                let ridges = (0..D).filter(|&i| i != corner % D).map(|i| self.mates[corner / D][i]);
+                for (across, opposite) in ridges.filter(|&mate| mate != NONE).map(|h| (h as usize / D, h as usize % D))
+                {
+                    let is_same = |&l: &usize| l != opposite && corners[D * across + l] == corners[corner];
+                    let Some(next) = (0..D).find(is_same).map(|l| D * across + l) else { continue };
+                    if cycles[next] == NONE {
+                        cycles[next] = cycle;
+                        found.push(next);
                     }
                 }
             }
         }
-        let corners = self.facets.as_flattened_mut();
-        let roots: Vec<u32> = (0..corners.len() as u32).map(|corner| cycles.find(corner)).collect();
-        let mut vertices: Vec<(u32, u32)> = (0..)
-            .zip(&roots)
-            .filter(|&(corner, &root)| corner == root)
-            .map(|(_, &root)| (corners[root as usize], root))
-            .collect();
-        parallel::sort(Threads::All, &mut vertices);
-        let mut names = vec![NONE; corners.len()];
-        for (name, &(_, root)) in (0..).zip(&vertices) {
-            names[root as usize] = name;
+        let order = parallel::order_of(Threads::All, firsts.clone());
+        let names = inverse(&order);
+        for (corner, &cycle) in self.facets.as_flattened_mut().iter_mut().zip(&cycles) {
+            *corner = names[cycle as usize];
         }
-        for (corner, &root) in corners.iter_mut().zip(&roots) {
-            *corner = names[root as usize];
-        }
-        self.sources = vertices.into_iter().map(|(point, _)| point).collect();
+        self.sources = order.into_iter().map(|cycle| firsts[cycle as usize]).collect();
     }
 }
 
@@ -247,9 +266,13 @@ where
         }
         sides
     });
-    let mut sides = parallel::joined(parts);
-    parallel::sort_by(Threads::All, &mut sides, |(a, _), (b, _)| a.cmp(b));
-    sides
+    // The vertex at infinity, which may be the first one of an edge, has no place among the others.
+    let firsts = parts.iter().flatten().map(|(vertices, _)| vertices[0]);
+    let infinite = firsts.filter(|&name| name < INFINITY).max().map_or(0, |name| name + 1);
+    let sides = parts.iter().flatten().map(|&side| (side.0[0].min(infinite), side));
+    let mut sides = Groups::new(infinite as usize + 1, sides);
+    sides.for_each_sorted(|_| {});
+    sides.items
 }
 
 /// Turns around the ridge of a facet that is opposite a point of it, through the inside to the next

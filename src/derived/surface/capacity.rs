@@ -30,7 +30,7 @@ where
                 let to_facet = vector::minus(corners[0], spheres.centers[t]);
                 let cosine = vector::dot(to_facet, outward) / (vector::norm(outward) * spheres.radii[t]);
                 // NaN where a facet's normal is too small to have a direction.
-                *cost = libm::rint(f64::from(UNIT) * (1.0 - cosine)).clamp(1.0, 2.0 * f64::from(UNIT)) as u16;
+                *cost = vector::rounded(f64::from(UNIT) * (1.0 - cosine)).clamp(1.0, 2.0 * f64::from(UNIT)) as u16;
             }
         }
     });

@@ -1,6 +1,6 @@
 //! Points before the surface is found: without isolated ones, and without noise.
 
-use super::{SurfaceOptions, find::Prepared, outliers::isolated, quadrics};
+use super::{SurfaceOptions, find::Prepared, neighbors::Tree, outliers::isolated, quadrics};
 use crate::{
     geometry::{Euclidean, Geometry, vector},
     input::points::Points,
@@ -37,27 +37,33 @@ impl<const D: usize> Cleaned<D> {
         Euclidean: Geometry<D, N>,
     {
         let complex = &prepared.mesh.complex;
-        let mut is_isolated = vec![false; prepared.mesh.points.len()];
-        if options.drop_isolated {
-            is_isolated = isolated(complex, stars);
-        }
-        let is_kept = |&v: &u32| !is_isolated[v as usize] && !stars.of(v).is_empty();
-        let kept: Vec<u32> = (0..is_isolated.len() as u32).filter(is_kept).collect();
-        let mut scaled: Vec<[f64; D]> = kept.iter().map(|&v| complex.point(v)).collect();
-        let is_estimated = options.smooth != Some(0) && kept.len() >= quadrics::MIN_POINTS;
-        let noise = if is_estimated { quadrics::noise(&scaled) } else { 0.0 };
-        let automatic = if (MIN_NOISE..MAX_NOISE).contains(&noise) { PASSES } else { 0 };
-        let passes = if is_estimated { options.smooth.unwrap_or(automatic) } else { 0 };
-        for _ in 0..passes {
-            scaled = quadrics::projected(&scaled);
+        let mut vertices: Vec<u32> =
+            (0..prepared.mesh.points.len() as u32).filter(|&v| !stars.of(v).is_empty()).collect();
+        let mut scaled: Vec<[f64; D]> = vertices.iter().map(|&v| complex.point(v)).collect();
+        let count = vertices.len();
+        let mut smoothed = Smoothed::default();
+        if options.drop_isolated || options.smooth != Some(0) {
+            let tree = Tree::new(&scaled);
+            let mut is_isolated = Vec::new();
+            if options.drop_isolated {
+                is_isolated = isolated(complex, stars, &vertices, &tree);
+            }
+            if is_isolated.contains(&true) {
+                drop(tree);
+                remove(&mut vertices, &is_isolated);
+                remove(&mut scaled, &is_isolated);
+                smoothed = Smoothed::new(&Tree::new(&scaled), options.smooth);
+            } else {
+                smoothed = Smoothed::new(&tree, options.smooth);
+            }
         }
         Cleaned {
-            names: kept.iter().map(|&v| prepared.mesh.points[v as usize]).collect(),
-            scaled,
+            names: vertices.iter().map(|&v| prepared.mesh.points[v as usize]).collect(),
+            isolated: count - vertices.len(),
+            scaled: smoothed.points.unwrap_or(scaled),
             scale: prepared.scale,
-            isolated: is_isolated.iter().filter(|&&is_isolated| is_isolated).count(),
-            noise,
-            passes,
+            noise: smoothed.noise,
+            passes: smoothed.passes,
         }
     }
 
@@ -75,4 +81,34 @@ impl<const D: usize> Cleaned<D> {
             Points::F64(_) => unscaled.collect(),
         }
     }
+}
+
+/// Points without noise.
+#[derive(Default)]
+struct Smoothed<const D: usize> {
+    noise: f64,
+    passes: u32,
+    /// The points, if they were moved.
+    points: Option<Vec<[f64; D]>>,
+}
+
+impl<const D: usize> Smoothed<D> {
+    /// Moves points onto quadrics so often, by default as often as their noise demands.
+    fn new(tree: &Tree<'_, D>, passes: Option<u32>) -> Self {
+        if passes == Some(0) || tree.points.len() < quadrics::MIN_POINTS {
+            return Smoothed::default();
+        }
+        let noise = quadrics::noise(tree);
+        let automatic = if (MIN_NOISE..MAX_NOISE).contains(&noise) { PASSES } else { 0 };
+        let passes = passes.unwrap_or(automatic);
+        let points = (passes > 0)
+            .then(|| (1..passes).fold(quadrics::projected(tree), |points, _| quadrics::projected(&Tree::new(&points))));
+        Smoothed { noise, passes, points }
+    }
+}
+
+/// Removes the items that are marked.
+fn remove<T>(items: &mut Vec<T>, is_removed: &[bool]) {
+    let mut marks = is_removed.iter();
+    items.retain(|_| marks.next() != Some(&true));
 }

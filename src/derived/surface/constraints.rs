@@ -10,31 +10,29 @@
 //! Normals and sensors decide the sides of poles directly, and are constraints for those of other vertices.
 
 use super::{
-    super::complex::Complex,
+    super::{complex::Complex, groups::Groups},
     evidence::Hints,
     parity::ParitySets,
     poles::Poles,
-    spheres::{BENEATH, OUTSIDE, Spheres},
+    spheres::{BENEATH, OUTSIDE, Sphere, Spheres},
 };
 use crate::{
+    geometry::vector,
     index::NONE,
     mesh::Csr,
-    parallel::{self, Threads},
+    parallel::{self, Pool, Threads},
 };
 
 /// The number of vertices that is worth handing to another thread.
 const GRAIN: usize = 1 << 12;
-
-/// So many neighbours of a vertex are looked through for another one. What is left out is sorted out later.
-const RECENT: usize = 16;
 
 /// The strength of what is certain. Strengths are integers, and equal ones are taken in the order of
 /// the vertices, so that the result does not depend on the last bits of the spheres.
 const CERTAIN: f64 = 65535.0;
 
 /// Constraints are taken in rounds of these strengths and more. After each round, those between poles
-/// that are connected already need not be sorted.
-const ROUNDS: [u16; 5] = [63_000, 57_000, 49_000, 33_000, 1];
+/// that are connected already are dropped, and need not be sorted: most of them.
+const ROUNDS: [u16; 7] = [65_450, 65_200, 64_000, 59_000, 49_000, 33_000, 1];
 
 /// A vertex of the hull has no pole outside, but a mean normal, which is less certain.
 const NORMAL_SHARE: f64 = 0.98;
@@ -51,25 +49,33 @@ pub(super) fn votes<const D: usize, const N: usize>(
     poles: &[Poles],
     hints: &Hints<D>,
 ) -> Vec<i8> {
-    let mut constraints = Constraints::new(complex, spheres, stars, poles);
-    constraints.known = known(complex, spheres, poles, hints);
+    let numbered = Numbered::new(spheres, poles);
+    let each = || {
+        (0..)
+            .zip(poles)
+            .zip(&numbered.poles)
+            .flat_map(|((v, poles), numbers)| [(v, poles.first, numbers[0]), (v, poles.second, numbers[1])])
+    };
+    let cosine = |v: u32, pole: u32| hints.cosine(v, complex.point(v), pole, spheres);
+    let mut constraints = Constraints::new(complex, stars, poles, &numbered);
+    constraints.at_vertices.extend(each().filter_map(|(v, pole, number)| {
+        let cosine = cosine(v, pole)?;
+        Some(Constraint { poles: [0, number], strength: strength(2.0 * cosine.abs()), are_opposite: cosine < 0.0 })
+    }));
     // The outside has number 0, and so stands for its set.
-    let mut sets = ParitySets::new(complex.simplices.len() + 1);
+    let mut sets = ParitySets::new(numbered.spheres.len());
     let mut strongest = u16::MAX;
     for weakest in ROUNDS {
-        let (strengths, found) = constraints.between(weakest, strongest, &sets);
-        for i in parallel::order_of(Threads::All, strengths) {
-            let Constraint { poles: [a, b], are_opposite } = found[i as usize];
+        for Constraint { poles: [a, b], are_opposite, .. } in constraints.take(weakest, strongest, &sets) {
             sets.unite(a, b, are_opposite);
         }
         sets.flatten();
         strongest = weakest.saturating_sub(1);
     }
     let mut votes = vec![0; complex.simplices.len()];
-    let each = (0..).zip(poles).flat_map(|(v, poles)| [(v, poles.first), (v, poles.second)]);
-    for (v, pole) in each.filter(|&(_, pole)| pole < BENEATH) {
-        let known = hints.cosine(v, complex.point(v), pole, spheres).map(|cosine| cosine < 0.0);
-        let found = || Some(sets.root(number(pole))).filter(|&(root, _)| root == 0).map(|(_, is_inside)| is_inside);
+    for (v, pole, number) in each().filter(|&(_, pole, _)| pole < BENEATH) {
+        let known = cosine(v, pole).map(|cosine| cosine < 0.0);
+        let found = || Some(sets.root(number)).filter(|&(root, _)| root == 0).map(|(_, is_inside)| is_inside);
         let vote = match known.or_else(found) {
             Some(true) => 1,
             Some(false) => -1,
@@ -81,142 +87,165 @@ pub(super) fn votes<const D: usize, const N: usize>(
     votes
 }
 
-/// Returns the number of a pole in the sets.
-fn number(pole: u32) -> u32 {
-    if pole >= BENEATH { 0 } else { pole + 1 }
+/// The poles, numbered in the order of the simplices from 1 on. The outside has number 0.
+struct Numbered<const D: usize> {
+    /// The numbers of the poles of each vertex; [`NONE`] for those that are missing.
+    poles: Vec<[u32; 2]>,
+    /// The sphere of each number.
+    spheres: Vec<Sphere<D>>,
 }
 
-/// Returns the constraints between the outside and the poles whose sides the evidence knows, with their
-/// strengths.
-fn known<const D: usize, const N: usize>(
-    complex: &Complex<'_, D, N>,
-    spheres: &Spheres<D>,
-    poles: &[Poles],
-    hints: &Hints<D>,
-) -> Vec<(u16, Constraint)> {
-    let each = (0..).zip(poles).flat_map(|(v, poles)| [(v, poles.first), (v, poles.second)]);
-    let known = each.filter_map(|(v, pole)| {
-        let cosine = hints.cosine(v, complex.point(v), pole, spheres)?;
-        let constraint = Constraint { poles: [0, number(pole)], are_opposite: cosine < 0.0 };
-        Some((strength(2.0 * cosine.abs()), constraint))
-    });
-    known.collect()
+impl<const D: usize> Numbered<D> {
+    fn new(spheres: &Spheres<D>, poles: &[Poles]) -> Self {
+        let mut numbers = vec![NONE; spheres.radii.len()];
+        for pole in poles.iter().flat_map(|poles| [poles.first, poles.second]).filter(|&pole| pole < BENEATH) {
+            numbers[pole as usize] = 0;
+        }
+        let mut compact = vec![Sphere { center: [0.0; D], radius: 0.0 }];
+        for (t, number) in numbers.iter_mut().enumerate().filter(|(_, number)| **number != NONE) {
+            *number = compact.len() as u32;
+            compact.push(Sphere { center: spheres.centers[t], radius: spheres.radii[t] });
+        }
+        let number = |pole: u32| match pole {
+            NONE => NONE,
+            OUTSIDE | BENEATH => 0,
+            t => numbers[t as usize],
+        };
+        let poles = poles.iter().map(|poles| [number(poles.first), number(poles.second)]).collect();
+        Numbered { poles, spheres: compact }
+    }
+
+    /// Returns the strength of the constraint that the poles of two vertices are on the same side; 0 if there is none.
+    fn same(&self, [i, j]: [u32; 2], vertices: [[f64; D]; 2]) -> u16 {
+        // The outside has no sphere, and a missing pole has none either.
+        if i == j || i == 0 || j == 0 {
+            return 0;
+        }
+        match [i, j].map(|i| self.spheres.get(i as usize)) {
+            [Some(a), Some(b)] => strength(1.0 + a.intersection(b, vertices)),
+            _ => 0,
+        }
+    }
 }
 
 /// Two poles, by their numbers, on the same side or on opposite ones.
 #[derive(Debug, Clone, Copy)]
 struct Constraint {
     poles: [u32; 2],
+    strength: u16,
     are_opposite: bool,
 }
 
-/// The constraints with their strengths, 0 where there is none.
+/// An edge of the mesh, with the strengths of the constraints between the first poles of both ends, the
+/// first and the second, the second and the first, and both second poles; 0 where there is none.
 #[derive(Debug)]
-struct Constraints<'a> {
-    poles: &'a [Poles],
-    /// Between the two poles of each vertex.
-    opposite: Vec<u16>,
-    same: Vec<Edges>,
-    /// Those by evidence.
-    known: Vec<(u16, Constraint)>,
+struct Edge {
+    ends: [u32; 2],
+    strengths: [u16; 4],
 }
 
-/// Edges of the mesh, with the strengths of the constraints between the first poles of both ends, the
-/// first and the second, the second and the first, and both second poles.
-#[derive(Debug, Default)]
-struct Edges {
-    ends: Vec<[u32; 2]>,
-    strengths: Vec<[u16; 4]>,
+/// The constraints that were not taken yet.
+struct Constraints<'a> {
+    /// The numbers of the poles of each vertex.
+    poles: &'a [[u32; 2]],
+    /// Between the two poles of a vertex; then those by evidence.
+    at_vertices: Vec<Constraint>,
+    at_edges: Vec<Vec<Edge>>,
 }
 
 impl<'a> Constraints<'a> {
     fn new<const D: usize, const N: usize>(
         complex: &Complex<'_, D, N>,
-        spheres: &Spheres<D>,
         stars: &Csr,
-        poles: &'a [Poles],
+        poles: &[Poles],
+        numbered: &'a Numbered<D>,
     ) -> Self {
-        let opposite = |poles: &Poles| match (poles.first, poles.second) {
-            (NONE, _) | (_, NONE) => 0,
-            (OUTSIDE | BENEATH, _) => strength(NORMAL_SHARE * (1.0 - poles.cosine)),
-            _ => strength(1.0 - poles.cosine),
+        let opposite = |(poles, &numbers): (&Poles, &[u32; 2])| {
+            let strength = match (poles.first, poles.second) {
+                (NONE, _) | (_, NONE) => return None,
+                (OUTSIDE | BENEATH, _) => strength(NORMAL_SHARE * (1.0 - poles.cosine)),
+                _ => strength(1.0 - poles.cosine),
+            };
+            // What is beneath is not outside.
+            Some(Constraint { poles: numbers, strength, are_opposite: poles.first != BENEATH })
         };
-        let same = |i: u32, j: u32| {
-            // Missing ones, too, have higher numbers than the simplices.
-            if i == j || i.max(j) >= BENEATH { 0 } else { strength(1.0 + spheres.intersection(i, j)) }
-        };
-        let edges = parallel::map_grains(Threads::All, poles.len(), GRAIN, |range| {
-            let mut edges = Edges::default();
-            let mut higher = Vec::new();
-            for v in range.start as u32..range.end as u32 {
-                higher.clear();
-                for &w in stars.of(v).iter().flat_map(|&t| &complex.simplices[t as usize]) {
-                    // Most come several times, and are few.
-                    if w > v && !higher[higher.len().saturating_sub(RECENT)..].contains(&w) {
-                        higher.push(w);
+        let listed: Pool<Vec<u32>> = Pool::default();
+        let at_edges = parallel::map_grains(Threads::All, poles.len(), GRAIN, |range| {
+            // The last vertex whose list each vertex was put into.
+            listed.with(|listed_by| {
+                listed_by.resize(poles.len(), NONE);
+                let (mut edges, mut higher) = (Vec::new(), Vec::new());
+                for v in range.start as u32..range.end as u32 {
+                    higher.clear();
+                    for &w in stars.of(v).iter().flat_map(|&t| &complex.simplices[t as usize]) {
+                        if w > v && listed_by[w as usize] != v {
+                            listed_by[w as usize] = v;
+                            higher.push(w);
+                        }
                     }
+                    higher.sort_unstable();
+                    let p = numbered.poles[v as usize];
+                    edges.extend(higher.iter().map(|&w| {
+                        let vertices = [v, w].map(|v| complex.point(v));
+                        let strengths = pairs(p, numbered.poles[w as usize]).map(|pair| numbered.same(pair, vertices));
+                        Edge { ends: [v, w], strengths }
+                    }));
                 }
-                higher.sort_unstable();
-                higher.dedup();
-                for &w in &higher {
-                    let (p, q) = (poles[v as usize], poles[w as usize]);
-                    edges.ends.push([v, w]);
-                    edges.strengths.push(pairs(p, q).map(|[i, j]| same(i, j)));
-                }
-            }
-            edges
+                edges
+            })
         });
-        Constraints { poles, opposite: poles.iter().map(opposite).collect(), same: edges, known: Vec::new() }
+        let at_vertices = poles.iter().zip(&numbered.poles).filter_map(opposite).collect();
+        Constraints { poles: &numbered.poles, at_vertices, at_edges }
     }
 
-    /// Returns the constraints with strengths from `low` to `high` between poles of different sets,
-    /// and by how much the strength of each is less than that of a certain one.
-    fn between(&mut self, low: u16, high: u16, sets: &ParitySets) -> (Vec<u32>, Vec<Constraint>) {
-        let mut found = (Vec::new(), Vec::new());
-        let take = |found: &mut (Vec<u32>, Vec<Constraint>), strength: u16, pair: [u32; 2], are_opposite: bool| {
-            if (low..=high).contains(&strength) {
-                let poles = pair.map(number);
-                if sets.root(poles[0]).0 != sets.root(poles[1]).0 {
-                    found.0.push(u32::from(u16::MAX - strength));
-                    found.1.push(Constraint { poles, are_opposite });
-                }
+    /// Returns the constraints with strengths from `low` to `high` between poles of different sets, by
+    /// falling strength. Keeps only the weaker ones.
+    fn take(&mut self, low: u16, high: u16, sets: &ParitySets) -> Vec<Constraint> {
+        let is_open =
+            |[a, b]: [u32; 2], strength: u16| (1..=high).contains(&strength) && sets.root(a).0 != sets.root(b).0;
+        let mut taken = Vec::new();
+        self.at_vertices.retain(|constraint| {
+            let is_open = is_open(constraint.poles, constraint.strength);
+            if is_open && constraint.strength >= low {
+                taken.push(*constraint);
             }
-        };
-        for (poles, &strength) in self.poles.iter().zip(&self.opposite) {
-            // What is beneath is not outside.
-            take(&mut found, strength, [poles.first, poles.second], poles.first != BENEATH);
-        }
-        for &(strength, constraint) in &self.known {
-            if (low..=high).contains(&strength) {
-                found.0.push(u32::from(u16::MAX - strength));
-                found.1.push(constraint);
-            }
-        }
-        let parts = parallel::map_mut(Threads::All, &mut self.same, |_, edges| {
-            let mut found = (Vec::new(), Vec::new());
-            for (&ends, strengths) in edges.ends.iter().zip(&edges.strengths) {
-                let [p, q] = ends.map(|v| self.poles[v as usize]);
-                for (pair, &strength) in pairs(p, q).into_iter().zip(strengths) {
-                    take(&mut found, strength, pair, false);
-                }
-            }
-            found
+            is_open && constraint.strength < low
         });
-        for (strengths, constraints) in parts {
-            found.0.extend(strengths);
-            found.1.extend(constraints);
-        }
-        found
+        let mut parts = vec![taken];
+        parts.extend(parallel::map_mut(Threads::All, &mut self.at_edges, |_, edges| {
+            let mut taken = Vec::new();
+            edges.retain(|edge| {
+                let [p, q] = edge.ends.map(|v| self.poles[v as usize]);
+                let mut is_kept = false;
+                for (poles, &strength) in pairs(p, q).into_iter().zip(&edge.strengths) {
+                    if is_open(poles, strength) {
+                        is_kept |= strength < low;
+                        if strength >= low {
+                            taken.push(Constraint { poles, strength, are_opposite: false });
+                        }
+                    }
+                }
+                is_kept
+            });
+            taken
+        }));
+        by_strength(&parts, low, high)
     }
 }
 
+/// Returns constraints with strengths from `low` to `high` by falling strength; equal ones in their order.
+fn by_strength(parts: &[Vec<Constraint>], low: u16, high: u16) -> Vec<Constraint> {
+    let keyed = parts.iter().flatten().map(|constraint| (u32::from(high - constraint.strength), *constraint));
+    Groups::new(usize::from(high - low) + 1, keyed).items
+}
+
 /// Returns the pairs of a pole of one vertex and a pole of another.
-fn pairs(p: Poles, q: Poles) -> [[u32; 2]; 4] {
-    [[p.first, q.first], [p.first, q.second], [p.second, q.first], [p.second, q.second]]
+fn pairs(p: [u32; 2], q: [u32; 2]) -> [[u32; 2]; 4] {
+    [[p[0], q[0]], [p[0], q[1]], [p[1], q[0]], [p[1], q[1]]]
 }
 
 /// Returns the strength of a constraint that is between 0 and 2.
 fn strength(twice: f64) -> u16 {
     // A conversion to an integer saturates, and NaN becomes 0.
-    libm::rint(0.5 * CERTAIN * twice) as u16
+    vector::rounded(0.5 * CERTAIN * twice) as u16
 }

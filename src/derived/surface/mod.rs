@@ -73,7 +73,7 @@ pub struct SurfaceOptions<'a, const D: usize = 3> {
     pub min_part: f64,
     /// Whether isolated points are dropped before the surface is found; by default `true`. They are far
     /// from all others: the sixth nearest one is more than four times as far away as is usual, and as
-    /// it is around them.
+    /// it is around them unless those around them lie on no surface either.
     pub drop_isolated: bool,
     /// How often all points are moved onto quadrics through their neighbours before the surface is
     /// found. By default twice if there is noise, which is estimated, and never else.

@@ -11,7 +11,7 @@ const LEAF: usize = 12;
 /// A k-d tree over points.
 #[derive(Debug)]
 pub(super) struct Tree<'a, const D: usize> {
-    points: &'a [[f64; D]],
+    pub(super) points: &'a [[f64; D]],
     /// The points. The one in the middle of a range is between those before and after along its axis.
     order: Vec<u32>,
     /// The axis along which each point splits its range.
@@ -83,6 +83,12 @@ impl<'a, const D: usize> Tree<'a, D> {
             self.search(far, query, count, nearest);
         }
     }
+}
+
+/// Returns the median of numbers; `None` if there are none. Changes their order.
+pub(super) fn median(numbers: &mut [f64]) -> Option<f64> {
+    let middle = numbers.len() / 2;
+    (!numbers.is_empty()).then(|| *numbers.select_nth_unstable_by(middle, f64::total_cmp).1)
 }
 
 #[cfg(test)]

@@ -8,8 +8,7 @@ use super::{
     super::{sets::DisjointSets, sorted::Sorted},
     boundary::Boundary,
     evidence::{Beyond, Hints},
-    neighbors::Tree,
-    outliers::median,
+    neighbors::{Tree, median},
 };
 use crate::{
     geometry::{Euclidean, Geometry, facet, vector},

@@ -1,37 +1,34 @@
 //! Disjoint sets whose members are on one of two sides.
 
-/// Disjoint sets of the numbers below a count. Of two numbers in the same set it is known whether they
-/// are on the same side or on opposite ones.
+/// Disjoint sets of the numbers below a count, at most 2³¹. Of two numbers in the same set it is known
+/// whether they are on the same side or on opposite ones.
 #[derive(Debug)]
 pub(super) struct ParitySets {
-    /// A lower number of the same set; the number itself if it is the lowest.
-    parent: Vec<u32>,
-    /// Whether each number is on the opposite side of its parent.
-    is_opposite: Vec<bool>,
+    /// Twice a lower number of the same set, or twice the number itself if it is the lowest; one more if
+    /// it is on the opposite side of that.
+    links: Vec<u32>,
 }
 
 impl ParitySets {
     /// Creates one set for each number.
     pub(super) fn new(count: usize) -> Self {
-        ParitySets { parent: (0..count as u32).collect(), is_opposite: vec![false; count] }
+        ParitySets { links: (0..count as u32).map(|i| 2 * i).collect() }
     }
 
     /// Returns the lowest number in the set of `i`, and whether `i` is on the opposite side.
-    pub(super) fn find(&mut self, mut i: u32) -> (u32, bool) {
-        let mut is_opposite = false;
+    fn find(&mut self, mut i: u32) -> (u32, bool) {
+        let mut side = 0;
         loop {
-            let parent = self.parent[i as usize];
-            let above = self.parent[parent as usize];
-            if above != parent {
-                // Halves the path.
-                self.parent[i as usize] = above;
-                self.is_opposite[i as usize] ^= self.is_opposite[parent as usize];
+            let link = self.links[i as usize];
+            let above = self.links[link as usize / 2];
+            side ^= link & 1;
+            if above / 2 == link / 2 {
+                return (link / 2, side == 1);
             }
-            is_opposite ^= self.is_opposite[i as usize];
-            if above == parent {
-                return (parent, is_opposite);
-            }
-            i = above;
+            // Halves the path.
+            self.links[i as usize] = above ^ (link & 1);
+            side ^= above & 1;
+            i = above / 2;
         }
     }
 
@@ -40,26 +37,23 @@ impl ParitySets {
     pub(super) fn unite(&mut self, i: u32, j: u32, are_opposite: bool) {
         let ((i, i_side), (j, j_side)) = (self.find(i), self.find(j));
         if i != j {
-            self.parent[i.max(j) as usize] = i.min(j);
-            self.is_opposite[i.max(j) as usize] = i_side ^ j_side ^ are_opposite;
+            self.links[i.max(j) as usize] = 2 * i.min(j) + u32::from(i_side ^ j_side ^ are_opposite);
         }
     }
 
-    /// Makes the lowest number of each set the parent of all, for [`root`](Self::root).
+    /// Links all numbers to the lowest ones of their sets, for [`root`](Self::root).
     pub(super) fn flatten(&mut self) {
-        for i in 0..self.parent.len() {
-            let parent = self.parent[i] as usize;
-            if parent != i {
-                self.is_opposite[i] ^= self.is_opposite[parent];
-                self.parent[i] = self.parent[parent];
-            }
+        for i in 0..self.links.len() {
+            let link = self.links[i];
+            self.links[i] = self.links[link as usize / 2] ^ (link & 1);
         }
     }
 
     /// Returns the lowest number in the set of `i`, and whether `i` is on the opposite side, if the
     /// sets are flat.
     pub(super) fn root(&self, i: u32) -> (u32, bool) {
-        (self.parent[i as usize], self.is_opposite[i as usize])
+        let link = self.links[i as usize];
+        (link / 2, link & 1 == 1)
     }
 }
 

@@ -4,7 +4,7 @@
 //! jets of Cazals and Pouget, *Estimating differential quantities using polynomial fitting of osculating
 //! jets*, 2003). Unlike planes, quadrics do not shrink what is curved.
 
-use super::{neighbors::Tree, outliers::median};
+use super::neighbors::{Tree, median};
 use crate::{
     geometry::vector,
     parallel::{self, Threads},
@@ -16,6 +16,14 @@ const NEIGHBORS: usize = 40;
 
 /// With fewer points, neighbourhoods are not small.
 pub(super) const MIN_POINTS: usize = 8 * NEIGHBORS;
+
+/// The numbers of neighbours that are taken, and what their mean distance from the quadric is multiplied by: fewer points
+/// come closer to their own quadric, whatever the noise.
+const COUNTS: [(usize, f64); 3] = [(NEIGHBORS, 1.0), (20, 1.25), (12, 2.0)];
+
+/// Neighbours do not fit one quadric if their mean distance from it is so many times larger than that of fewer: there is
+/// an edge, or another sheet.
+const MISFIT: f64 = 1.5;
 
 /// The number of points of a plane, in 2D and in 3D, the point included.
 const NEAREST: [usize; 2] = [5, 9];
@@ -46,71 +54,80 @@ struct Fit<const D: usize> {
     spacing: f64,
 }
 
-/// A distance of a point from what lies around it, with memory for its neighbours.
-type OfPoint<'a, const D: usize> = dyn Fn([f64; D], &mut Vec<(f64, u32)>) -> f64 + Sync + 'a;
-
 /// Returns the median distance of points from quadrics through their neighbours, in units of the
 /// distance between points.
 ///
 /// It is 0 where a quarter of the points lie in a plane with the nearest ones: there is no noise then, but edges, of which the
 /// neighbours have some where faces have few points.
-pub(super) fn noise<const D: usize>(points: &[[f64; D]]) -> f64 {
-    let tree = Tree::new(points);
-    let step = points.len().div_ceil(SAMPLES);
-    let samples: Vec<u32> = (0..points.len() as u32).step_by(step).collect();
-    let of_samples = |distance: &OfPoint<'_, D>| {
-        let parts = parallel::map_grains(Threads::All, samples.len(), GRAIN, |range| {
-            let mut near = Vec::new();
-            samples[range].iter().map(|&i| distance(points[i as usize], &mut near)).collect::<Vec<f64>>()
-        });
-        parallel::joined(parts)
-    };
-    let mut from_planes = of_samples(&|point, near| from_plane(points, &tree, point, near));
+pub(super) fn noise<const D: usize>(tree: &Tree<'_, D>) -> f64 {
+    let points = tree.points;
+    let mut from_planes = of_samples(points, |point, near| from_plane(tree, point, near));
     from_planes.sort_unstable_by(f64::total_cmp);
     if from_planes.get(from_planes.len() / 4).is_none_or(|&quarter| quarter < FLAT) {
         return 0.0;
     }
-    let mut from_quadrics = of_samples(&|point, near| {
-        let fit = fit(points, &tree, point, near);
-        if fit.spacing > 0.0 { fit.residual / fit.spacing } else { 0.0 }
+    // Noise is the same with few neighbours and with many. Where it is less with few, the others lie on another sheet.
+    let from_quadrics = of_samples(points, |point, near| {
+        let noise = |(factor, fit): (f64, Fit<D>)| {
+            if fit.spacing > 0.0 { factor * fit.residual / fit.spacing } else { 0.0 }
+        };
+        fits(tree, point, near).map(noise)
     });
-    median(&mut from_quadrics).unwrap_or(0.0)
+    let noises = (0..COUNTS.len()).map(|i| {
+        let mut noises: Vec<f64> = from_quadrics.iter().map(|noises| noises[i]).collect();
+        median(&mut noises).unwrap_or(0.0)
+    });
+    noises.fold(f64::INFINITY, f64::min)
+}
+
+/// Returns the results of `work` for a sample of the points. It gets memory for the neighbours of a point.
+fn of_samples<const D: usize, R: Clone + Send>(
+    points: &[[f64; D]],
+    work: impl Fn([f64; D], &mut Vec<(f64, u32)>) -> R + Sync,
+) -> Vec<R> {
+    let step = points.len().div_ceil(SAMPLES);
+    let samples: Vec<u32> = (0..points.len() as u32).step_by(step).collect();
+    let parts = parallel::map_grains(Threads::All, samples.len(), GRAIN, |range| {
+        let mut near = Vec::new();
+        samples[range].iter().map(|&i| work(points[i as usize], &mut near)).collect::<Vec<R>>()
+    });
+    parallel::joined(parts)
 }
 
 /// Returns how far the points next to one are from a plane, in 2D a line, in units of the distance between points.
-fn from_plane<const D: usize>(
-    points: &[[f64; D]],
-    tree: &Tree<'_, D>,
-    point: [f64; D],
-    near: &mut Vec<(f64, u32)>,
-) -> f64 {
+fn from_plane<const D: usize>(tree: &Tree<'_, D>, point: [f64; D], near: &mut Vec<(f64, u32)>) -> f64 {
     tree.nearest(point, NEAREST[D - 2], near);
-    let radius = near.last().map_or(0.0, |&(squared, _)| squared.sqrt());
+    let around: Vec<[f64; D]> = near.iter().map(|&(_, j)| vector::minus(tree.points[j as usize], point)).collect();
+    thickness(&around)
+}
+
+/// Returns how far points are from a plane, in 2D a line, in units of the distance from the origin to the last one.
+pub(super) fn thickness<const D: usize>(points: &[[f64; D]]) -> f64 {
+    let radius = points.last().map_or(0.0, |&p| vector::norm(p));
     if radius == 0.0 {
         return 0.0;
     }
-    let around = || near.iter().map(|&(_, j)| vector::minus(points[j as usize], point));
-    let count = near.len() as f64;
-    let center = vector::times(1.0 / count, around().fold([0.0; D], vector::plus));
+    let count = points.len() as f64;
+    let center = vector::times(1.0 / count, points.iter().copied().fold([0.0; D], vector::plus));
     let mut covariance = [[0.0; D]; D];
-    for q in around().map(|q| vector::minus(q, center)) {
+    for q in points.iter().map(|&q| vector::minus(q, center)) {
         for (row, x) in covariance.iter_mut().zip(q) {
             *row = vector::plus(*row, vector::times(x, q));
         }
     }
     let normal = axes(covariance)[0];
-    let squared = around().map(|q| vector::dot(normal, vector::minus(q, center))).map(|height| height * height);
-    (squared.sum::<f64>() / count).sqrt() / radius
+    let heights = points.iter().map(|&q| vector::dot(normal, vector::minus(q, center)));
+    (heights.map(|height| height * height).sum::<f64>() / count).sqrt() / radius
 }
 
-/// Returns the points, each moved onto the quadric through its neighbours.
-pub(super) fn projected<const D: usize>(points: &[[f64; D]]) -> Vec<[f64; D]> {
-    let tree = Tree::new(points);
+/// Returns the points of a tree, each moved onto the quadric through its neighbours.
+pub(super) fn projected<const D: usize>(tree: &Tree<'_, D>) -> Vec<[f64; D]> {
+    let points = tree.points;
     let parts = parallel::map_grains(Threads::All, points.len(), GRAIN, |range| {
         let mut near = Vec::new();
         range
             .map(|i| {
-                let moved = vector::plus(points[i], fit(points, &tree, points[i], &mut near).offset);
+                let moved = vector::plus(points[i], best_fit(tree, points[i], &mut near).offset);
                 if moved.iter().all(|x| x.is_finite()) { moved } else { points[i] }
             })
             .collect::<Vec<_>>()
@@ -120,19 +137,38 @@ pub(super) fn projected<const D: usize>(points: &[[f64; D]]) -> Vec<[f64; D]> {
 
 /// Returns what moves a place onto the quadric through the points around it; `None` if they do not fit one.
 pub(super) fn offset<const D: usize>(
-    points: &[[f64; D]],
     tree: &Tree<'_, D>,
     place: [f64; D],
     near: &mut Vec<(f64, u32)>,
 ) -> Option<[f64; D]> {
-    let fit = fit(points, tree, place, near);
+    // Of points that are not noisy, fewer would only be rougher.
+    tree.nearest(place, NEIGHBORS, near);
+    let fit = fit(tree.points, place, near);
     let is_good = fit.residual <= MAX_RESIDUAL * fit.spacing && fit.offset.iter().all(|x| x.is_finite());
     is_good.then_some(fit.offset)
 }
 
-/// Fits a quadric to the points around one. The nearer ones weigh more.
-fn fit<const D: usize>(points: &[[f64; D]], tree: &Tree<'_, D>, point: [f64; D], near: &mut Vec<(f64, u32)>) -> Fit<D> {
+/// Fits a quadric to the points around one: to fewer where not all fit.
+fn best_fit<const D: usize>(tree: &Tree<'_, D>, point: [f64; D], near: &mut Vec<(f64, u32)>) -> Fit<D> {
+    let [first, others @ ..] = fits(tree, point, near);
+    let fewer = |best: (f64, Fit<D>), fewer: (f64, Fit<D>)| {
+        if best.0 * best.1.residual > MISFIT * fewer.0 * fewer.1.residual { fewer } else { best }
+    };
+    others.into_iter().fold(first, fewer).1
+}
+
+/// Fits quadrics to the points around one, for each of [`COUNTS`]. Returns them with the factors of their distances.
+fn fits<const D: usize>(
+    tree: &Tree<'_, D>,
+    point: [f64; D],
+    near: &mut Vec<(f64, u32)>,
+) -> [(f64, Fit<D>); COUNTS.len()] {
     tree.nearest(point, NEIGHBORS, near);
+    COUNTS.map(|(count, factor)| (factor, fit(tree.points, point, &near[..near.len().min(count)])))
+}
+
+/// Fits a quadric to points near one, in order of their distances. The nearer ones weigh more.
+fn fit<const D: usize>(points: &[[f64; D]], point: [f64; D], near: &[(f64, u32)]) -> Fit<D> {
     let radius = near.last().map_or(0.0, |&(squared, _)| squared.sqrt());
     let mut fit = Fit { offset: [0.0; D], residual: 0.0, spacing: 0.0 };
     if radius == 0.0 {
@@ -265,14 +301,15 @@ mod tests {
             .map(|i| [f64::from(i % 20) * 0.05, f64::from(i / 20) * 0.05])
             .map(|[x, y]| [x, y, height(x, y)])
             .collect();
-        assert!(noise(&points) < 0.01);
+        assert!(noise(&Tree::new(&points)) < 0.01);
         let before = points[210];
         points[210][2] += 0.03;
-        let moved = projected(&points)[210];
+        let moved = projected(&Tree::new(&points))[210];
         assert!((moved[2] - before[2]).abs() < 0.02 && (moved[0] - before[0]).abs() < 0.02, "{moved:?} {before:?}");
         let line: Vec<[f64; 2]> = (0..400).map(|i| f64::from(i) * 0.01).map(|x| [x, x * x]).collect();
-        assert!(noise(&line) < 0.01);
-        let moves = projected(&line).into_iter().zip(&line).map(|(p, q)| (p[0] - q[0]).abs() + (p[1] - q[1]).abs());
+        assert!(noise(&Tree::new(&line)) < 0.01);
+        let moves =
+            projected(&Tree::new(&line)).into_iter().zip(&line).map(|(p, q)| (p[0] - q[0]).abs() + (p[1] - q[1]).abs());
         // At the ends, all neighbours lie on one side.
         let moves: Vec<f64> = moves.skip(20).take(360).collect();
         assert!(moves.iter().all(|&x| x < 1e-3), "{moves:?}");

@@ -104,7 +104,7 @@ fn moved<const D: usize>(old: &[[f64; D]], ends: &[[u32; 2]], middles: &[[f64; D
         let mut near = Vec::new();
         let on_quadric = |i: usize| {
             let [a, b] = ends[i].map(|v| old[v as usize]);
-            let offset = quadrics::offset(old, &tree, middles[i], &mut near).unwrap_or([0.0; D]);
+            let offset = quadrics::offset(&tree, middles[i], &mut near).unwrap_or([0.0; D]);
             let limit = MAX_MOVE * MAX_MOVE * vector::squared_norm(vector::minus(a, b));
             if vector::squared_norm(offset) <= limit { vector::plus(middles[i], offset) } else { middles[i] }
         };

@@ -37,14 +37,30 @@ impl<const D: usize> Spheres<D> {
         });
         spheres
     }
+}
 
+/// A circumsphere.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Sphere<const D: usize> {
+    pub(super) center: [f64; D],
+    pub(super) radius: f64,
+}
+
+impl<const D: usize> Sphere<D> {
     /// Returns how deeply two spheres intersect: the cosine of the angle between their radii at a
     /// common point, with the sign that makes it 1 for equal spheres and −1 for spheres that touch
-    /// from outside; less if they are disjoint.
-    pub(super) fn intersection(&self, i: u32, j: u32) -> f64 {
-        let (i, j) = (i as usize, j as usize);
-        let (r, s) = (self.radii[i], self.radii[j]);
-        let squared = vector::squared_norm(vector::minus(self.centers[i], self.centers[j]));
-        (r * r + s * s - squared) / (2.0 * r * s)
+    /// from outside; less if they are disjoint. Each comes with a point on it.
+    ///
+    /// Of the larger one only the direction counts: circumspheres of nearly flat simplices, as of points on a
+    /// grid, are so large that the square of the radius has an error above all else.
+    pub(super) fn intersection(&self, other: &Self, points: [[f64; D]; 2]) -> f64 {
+        let [large, small, point] = if self.radius >= other.radius {
+            [self.center, other.center, points[0]]
+        } else {
+            [other.center, self.center, points[1]]
+        };
+        let (r, s) = (self.radius.max(other.radius), self.radius.min(other.radius));
+        let [to_large, to_small] = [large, small].map(|center| vector::minus(center, point));
+        (vector::dot(to_large, to_small) / r + 0.5 * (s * s - vector::squared_norm(to_small)) / r) / s
     }
 }

@@ -1,16 +1,19 @@
 //! Voronoi diagrams, the duals of Delaunay triangulations.
 
 mod cell;
+mod flat;
+mod frame;
 mod hull;
 mod polytope;
 mod shapes;
+mod window;
 
 pub use cell::Cell;
 pub use shapes::VoronoiShapes;
 use shapes::{Row, Star};
 pub(super) use shapes::{THIRD, place, ring};
 
-use super::{Locator, queries::order_along_curve};
+use super::{Locator, complex::Coordinates, queries::order_along_curve};
 use crate::{
     error::Error,
     geometry::{Euclidean, Geometry, circumcenter, facet, vector},
@@ -20,7 +23,10 @@ use crate::{
     mesh::Mesh,
     parallel::{self, Threads},
 };
+use frame::Frame;
 use polytope::Polytope;
+use window::Window;
+pub(super) use window::check_box;
 
 /// The number of cells that is worth handing to another thread.
 const GRAIN: usize = 1 << 8;
@@ -42,17 +48,23 @@ const BLOCK: usize = 32;
 /// assert!(total(Clip::None)?.is_infinite());
 /// assert!((total(Clip::Box([[-1.0, -1.0], [2.0, 2.0]]))? - 9.0).abs() < 1e-14);
 /// assert!((total(Clip::Hull)? - 0.5).abs() < 1e-15);
+/// let diamond = [[0.0, -1.0], [1.0, 0.0], [0.0, 1.0], [-1.0, 0.0]];
+/// assert!((total(Clip::Convex(&diamond))? - 2.0).abs() < 1e-15);
 /// # Ok::<(), gdel::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub enum Clip<const D: usize = 3> {
+pub enum Clip<'c, const D: usize = 3> {
     /// Nothing: cells of vertices on the convex hull are unbounded.
     #[default]
     None,
-    /// The box with this lowest and this highest corner.
+    /// The box with this lowest and this highest corner. If all points have the same coordinate along an
+    /// axis, the box may have no extent along it other than that coordinate: cells then are measured
+    /// within it.
     Box([[f64; D]; 2]),
     /// The convex hull of the points.
     Hull,
+    /// A convex polygon or polyhedron with these corners, in any order.
+    Convex(&'c [[f64; D]]),
 }
 
 /// The Voronoi diagram of the vertices of a mesh: for each vertex, the places that are nearer to it
@@ -64,6 +76,16 @@ pub enum Clip<const D: usize = 3> {
 /// what the diagram is clipped to are made from it by clipping with bisectors, so that no
 /// circumcentre, however far away, makes them wrong. Facets that are empty because of a tie are
 /// left out, exactly.
+///
+/// Points in a plane, or on a line, have cells of their own dimension, unless these are clipped to a
+/// box that has an inside: polygons, or segments. Their facets then are edges with two vertices, or
+/// ends with one, and areas and volumes are lengths and areas, or 1 and lengths. In a plane that is not
+/// perpendicular to an axis, ties are decided up to rounding.
+///
+/// Everything is computed in coordinates that are neither large nor small, nor far from the origin
+/// compared with the extent of the points, and scaled at the end. So volumes are right, or infinite
+/// if they are above the range of `f64`; below it, a cell that is not empty has the smallest positive
+/// number.
 ///
 /// The cells that are bounded, those clipped to the hull, and those clipped to a box:
 ///
@@ -84,12 +106,18 @@ pub enum Clip<const D: usize = 3> {
 /// ```
 #[derive(Debug)]
 pub struct Voronoi<'a, const D: usize = 3, const N: usize = 4> {
+    /// With the points in the coordinates of the frame, if there is one.
     locator: Locator<'a, D, N>,
-    clip: Clip<D>,
+    /// The points as they were given.
+    points: Points<'a, D>,
+    frame: Option<Frame<D>>,
+    window: Window<D>,
     /// The simplices around each vertex.
     stars: Csr,
-    /// The circumcentre of each simplex.
+    /// The circumcentre of each simplex, in the coordinates of the frame.
     vertices: Vec<[f64; D]>,
+    /// The same in the coordinates of the points, if there is a frame.
+    outer_vertices: Option<Vec<[f64; D]>>,
     /// Whether each vertex of the mesh is on the hull.
     on_hull: Vec<bool>,
     /// If the diagram is clipped to the hull, the facets that each vertex's cell meets, as places
@@ -97,6 +125,8 @@ pub struct Voronoi<'a, const D: usize = 3, const N: usize = 4> {
     hull_facets_of_cells: Csr,
     /// The facets of the hull as (simplex, opposite vertex).
     hull_facets: Vec<(usize, usize)>,
+    /// The cells of points in a plane or on a line that are measured within it.
+    flat: Option<Vec<Cell<D>>>,
 }
 
 /// The Voronoi diagram of the vertices of a 2D mesh.
@@ -146,22 +176,27 @@ impl<'a, const D: usize, const N: usize> Voronoi<'a, D, N>
 where
     Euclidean: VoronoiShapes<D, N>,
 {
-    /// Creates the Voronoi diagram of a mesh with its points, clipped to a box or the hull if
-    /// wanted.
+    /// Creates the Voronoi diagram of a mesh with its points, clipped to a box, a convex shape or the
+    /// hull if wanted.
     ///
     /// # Errors
     ///
     /// [`Error::PointCount`], [`Error::NotFinite`] or [`Error::BrokenMesh`] as for
     /// [`Locator::new`](crate::Locator::new); [`Error::EmptyBox`] if the lowest corner of the box
-    /// is not below the highest, or not finite.
-    pub fn new(mesh: &'a impl Mesh<D, N>, points: impl Into<Points<'a, D>>, clip: Clip<D>) -> Result<Self, Error> {
-        if let Clip::Box([low, high]) = clip {
-            let is_wrong = |&axis: &usize| !(low[axis] < high[axis] && (high[axis] - low[axis]).is_finite());
-            if let Some(axis) = (0..D).find(is_wrong) {
-                return Err(Error::EmptyBox { axis: ['x', 'y', 'z'][axis] });
-            }
+    /// is not below the highest, or not finite, unless the points are as flat as the box;
+    /// [`Error::BadOption`] if the corners of a convex shape are not finite, flat, or not all on their
+    /// convex hull.
+    pub fn new(mesh: &'a impl Mesh<D, N>, points: impl Into<Points<'a, D>>, clip: Clip<'_, D>) -> Result<Self, Error> {
+        let points = points.into();
+        let mut locator = Locator::new(mesh, points)?;
+        let flat = flat::cells(&locator, &clip)?;
+        let frame = points.bounds().and_then(Frame::of);
+        let window = if flat.is_some() { Window::All } else { Window::new(clip, frame)? };
+        if let Some(frame) = frame {
+            let mut complex = locator.complex;
+            complex.points = Coordinates::Owned(frame.inner_points(points));
+            locator = Locator::of(complex)?;
         }
-        let locator = Locator::new(mesh, points)?;
         let complex = &locator.complex;
         let stars = Csr::stars(&complex.simplices, complex.points().len());
         let mut vertices = vec![[0.0; D]; complex.simplices.len()];
@@ -182,18 +217,30 @@ where
             }
         }
         let (hull_facets_of_cells, hull_facets) =
-            if clip == Clip::Hull { hull::hull_facets_of_cells(&locator) } else { Default::default() };
-        Ok(Voronoi { locator, clip, stars, vertices, on_hull, hull_facets_of_cells, hull_facets })
+            if let Window::Hull = window { hull::hull_facets_of_cells(&locator) } else { Default::default() };
+        let outer_vertices = frame.map(|frame| vertices.iter().map(|&vertex| frame.outer(vertex)).collect());
+        Ok(Voronoi {
+            locator,
+            points,
+            frame,
+            window,
+            stars,
+            vertices,
+            outer_vertices,
+            on_hull,
+            hull_facets_of_cells,
+            hull_facets,
+            flat,
+        })
     }
 
     /// Returns the vertices of the diagram before it is clipped: the circumcentre of each simplex
     /// of the mesh.
     pub fn vertices(&self) -> &[[f64; D]] {
-        &self.vertices
+        self.outer_vertices.as_ref().unwrap_or(&self.vertices)
     }
 
-    /// Returns the cell of point `i`; an empty one for duplicates, and for all points if the mesh
-    /// has no simplices.
+    /// Returns the cell of point `i`; an empty one for duplicates.
     ///
     /// # Panics
     ///
@@ -311,7 +358,7 @@ where
         let centroids = self.centroids();
         let relaxed = |i: usize| {
             let centroid = centroids[complex.representative(i as u32) as usize];
-            if centroid.iter().all(|x| x.is_finite()) { centroid } else { complex.points().get(i) }
+            if centroid.iter().all(|x| x.is_finite()) { centroid } else { self.points.get(i) }
         };
         (0..centroids.len()).map(relaxed).collect()
     }
@@ -336,7 +383,7 @@ where
     /// # Ok::<(), gdel::Error>(())
     /// ```
     pub fn diagram(&self) -> Diagram<D> {
-        let mut diagram = Diagram { vertices: self.vertices.clone(), cells: vec![0], ..Diagram::default() };
+        let mut diagram = Diagram { vertices: self.vertices().to_vec(), cells: vec![0], ..Diagram::default() };
         for cell in self.map_cells(|_, cell| cell.clone()) {
             let mut index = cell.simplices.clone();
             for (index, vertex) in index.iter_mut().zip(&cell.vertices) {
@@ -361,11 +408,22 @@ where
     fn find_cell(&self, i: u32, place: u32, worker: &mut Worker<D, N, <Euclidean as VoronoiShapes<D, N>>::Polytope>) {
         let Worker { block, cell, relative, star: scratch, polytope } = worker;
         cell.clear();
-        let star = block.stars.of(place);
-        if star.is_empty() {
+        if let Some(cells) = &self.flat {
+            cell.clone_from(&cells[i as usize]);
             return;
         }
+        let star = block.stars.of(place);
         let site = block.sites[place as usize];
+        if star.is_empty() {
+            if let (Some(flat), Window::Convex(_)) = (&self.locator.flat, &self.window)
+                && self.locator.complex.duplicate_of[i as usize] == NONE
+            {
+                cell.neighbors.extend(flat.neighbors.of(i));
+                let moment = self.clip_cell(i, cell, polytope);
+                self.finish(cell, site, moment);
+            }
+            return;
+        }
         let range = block.stars.offsets[place as usize]..block.stars.offsets[place as usize + 1];
         let (vertices, rows) = (&block.vertices[range.clone()], &block.rows[range]);
         relative.clear();
@@ -379,22 +437,27 @@ where
         } else {
             moment = self.clip_cell(i, cell, polytope);
         }
+        self.finish(cell, site, moment);
+    }
+
+    /// Gives a cell its centre of mass, and the coordinates of the points.
+    fn finish(&self, cell: &mut Cell<D>, site: [f64; D], moment: [f64; D]) {
         if !cell.is_bounded {
             cell.volume = f64::INFINITY;
         } else if cell.volume > 0.0 {
             cell.centroid = vector::plus(site, vector::times(1.0 / cell.volume, moment));
         }
+        if let Some(frame) = &self.frame {
+            frame.restore(cell);
+        }
     }
 
     /// Returns whether clipping leaves the cell of vertex `v`, with these vertices, as it is.
     fn is_whole(&self, v: u32, vertices: &[[f64; D]]) -> bool {
-        match self.clip {
-            Clip::None => true,
-            Clip::Hull => self.hull_facets_of_cells.of(v).is_empty(),
-            Clip::Box([low, high]) => {
-                let is_within = |p: [f64; D]| (0..D).all(|axis| low[axis] <= p[axis] && p[axis] <= high[axis]);
-                !self.on_hull[v as usize] && vertices.iter().all(|&vertex| is_within(vertex))
-            }
+        match &self.window {
+            Window::All => true,
+            Window::Hull => self.hull_facets_of_cells.of(v).is_empty(),
+            Window::Convex(shape) => !self.on_hull[v as usize] && vertices.iter().all(|&vertex| shape.contains(vertex)),
         }
     }
 
@@ -477,8 +540,8 @@ where
         other.into_iter().all(|v| Euclidean::side(&one, complex.point(v)) == 0)
     }
 
-    /// Makes the cell of vertex `v` from the box, or that around the hull, by clipping it with the
-    /// bisectors of the cell's facets, which it replaces, and with the facets of the hull. Returns
+    /// Makes the cell of vertex `v` from the box around what it is clipped to, by clipping it with the
+    /// bisectors of the cell's facets, which it replaces, and with the facets of that. Returns
     /// the integral of the coordinates over the cell.
     fn clip_cell(
         &self,
@@ -488,9 +551,9 @@ where
     ) -> [f64; D] {
         let complex = &self.locator.complex;
         let site = complex.point(v);
-        let bounds = match self.clip {
-            Clip::Box(bounds) => bounds,
-            _ => self.locator.bounds,
+        let (bounds, planes) = match &self.window {
+            Window::Convex(shape) => (shape.bounds, &shape.planes[..]),
+            _ => (self.locator.bounds, &[][..]),
         };
         // Relative to the site.
         polytope.reset(bounds.map(|corner| vector::minus(corner, site)), NONE);
@@ -504,7 +567,10 @@ where
         for (offset, normal, neighbor) in bisectors {
             polytope.clip(normal, offset, neighbor);
         }
-        if self.clip == Clip::Hull {
+        for &(normal, offset) in planes {
+            polytope.clip(normal, offset - vector::dot(normal, site), NONE);
+        }
+        if let Window::Hull = self.window {
             for &f in self.hull_facets_of_cells.of(v) {
                 let (t, k) = self.hull_facets[f as usize];
                 let corners = facet(&complex.simplices[t], k).map(|w| vector::minus(complex.point(w), site));

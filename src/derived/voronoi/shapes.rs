@@ -5,9 +5,13 @@ use super::{
     polytope::{Polygon, Polyhedron, Polytope},
 };
 use crate::{
+    cpu,
+    error::Error,
     geometry::{Euclidean, Geometry, vector},
     index::NONE,
+    input::points::Points,
     mesh::Csr,
+    options::Options,
 };
 
 /// The measures of a facet.
@@ -51,6 +55,9 @@ pub trait VoronoiShapes<const D: usize, const N: usize>: Geometry<D, N> {
     /// Returns the outer normal of the facet of a simplex, and its product with the points of the
     /// facet.
     fn plane(facet: &[[f64; D]; D]) -> ([f64; D], f64);
+
+    /// Returns the facets of the convex hull; none if the points are flat.
+    fn hull(points: &[[f64; D]]) -> Result<Vec<[u32; D]>, Error>;
 
     /// Returns the measures of a facet, whose corners are places in a list.
     fn facet_measures(vertices: &[[f64; D]], corners: &[u32]) -> FacetMeasures<D>;
@@ -120,6 +127,13 @@ impl VoronoiShapes<2, 3> for Euclidean {
         // To the right of the edge.
         let normal = [b[1] - a[1], a[0] - b[0]];
         (normal, vector::dot(normal, a))
+    }
+
+    fn hull(points: &[[f64; 2]]) -> Result<Vec<[u32; 2]>, Error> {
+        let mesh = cpu::delaunay(Points::F64(points), &Options::default())?;
+        // The hull of collinear points is a sequence.
+        let sides = if mesh.triangles.is_empty() { 0 } else { mesh.hull.len() };
+        Ok((0..sides).map(|i| [mesh.hull[i], mesh.hull[(i + 1) % sides]]).collect())
     }
 
     fn facet_measures(vertices: &[[f64; 2]], corners: &[u32]) -> FacetMeasures<2> {
@@ -285,6 +299,11 @@ impl VoronoiShapes<3, 4> for Euclidean {
     fn plane(&[a, b, c]: &[[f64; 3]; 3]) -> ([f64; 3], f64) {
         let normal = vector::cross(vector::minus(b, a), vector::minus(c, a));
         (normal, vector::dot(normal, a))
+    }
+
+    fn hull(points: &[[f64; 3]]) -> Result<Vec<[u32; 3]>, Error> {
+        let mesh = cpu::delaunay(Points::F64(points), &Options::default())?;
+        Ok(if mesh.tetrahedra.is_empty() { Vec::new() } else { mesh.hull })
     }
 
     fn facet_measures(vertices: &[[f64; 3]], corners: &[u32]) -> FacetMeasures<3> {

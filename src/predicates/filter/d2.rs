@@ -1,11 +1,12 @@
 //! The 2D predicates.
 
 use crate::predicates::filter::{
-    EPSILON, ERROR_BOUNDS, ExactStage, PredicateContext2, PredicatesAt, UNDERFLOW, greatest, minus,
+    EPSILON, ERROR_BOUNDS, ExactStage, PredicateContext, PredicatesAt, UNDERFLOW, greatest, minus,
+    weights::{in_sphere_error, underflow},
 };
 use crate::predicates::{Sign, exact, integer, symbolic};
 
-impl PredicatesAt<'_, '_, 2> {
+impl<const W: bool> PredicatesAt<'_, '_, 2, W> {
     /// Returns the context's `orient2d` with the vertex as c.
     #[inline]
     pub(crate) fn orient2d(&self, a: u32, b: u32) -> Sign {
@@ -24,7 +25,11 @@ impl PredicatesAt<'_, '_, 2> {
         if self.stored.is_empty() {
             return self.context.incircle_computed(vertices);
         }
-        self.context.incircle_of(vertices, [a, b, c].map(|v| minus(self.stored[v as usize], self.place)))
+        let differences = [a, b, c].map(|v| minus(self.stored[v as usize], self.place));
+        if W {
+            return self.context.power_of(vertices, differences, [a, b, c].map(|v| self.weight_to(v)));
+        }
+        self.context.incircle_of(vertices, differences)
     }
 
     /// Returns whether the vertex, which is collinear with the different points a and b, lies
@@ -35,7 +40,7 @@ impl PredicatesAt<'_, '_, 2> {
     }
 }
 
-impl PredicateContext2<'_> {
+impl<const W: bool> PredicateContext<'_, 2, W> {
     /// Returns the sign of det(b − a, c − a): positive if a, b, c turn counter-clockwise, the *y*
     /// axis pointing up.
     #[inline]
@@ -110,20 +115,47 @@ impl PredicateContext2<'_> {
         let minor = |p: [f64; 2], q: [f64; 2]| p[0] * q[1] - p[1] * q[0];
         let lifts = [a, b, c].map(lift);
         let det = lifts[0] * minor(b, c) + lifts[1] * minor(c, a) + lifts[2] * minor(a, b);
-        if det.abs() > self.in_sphere_bound || det.abs() > local_bound(greatest(lifts)) {
+        if det.abs() > self.in_sphere_bound || det.abs() > local_bound::<false>(greatest(lifts)) {
             return if det > 0.0 { 1 } else { -1 };
         }
         self.incircle_unfiltered(vertices, [a, b, c], det)
     }
 
     #[inline(never)]
-    fn incircle_unfiltered(&self, vertices: [u32; 4], [a, b, c]: [[f64; 2]; 3], det: f64) -> Sign {
-        let permanent = |p: [f64; 2], q: [f64; 2]| (p[0] * q[1]).abs() + (p[1] * q[0]).abs();
-        let permanent = lift(a) * permanent(b, c) + lift(b) * permanent(c, a) + lift(c) * permanent(a, b);
-        if det.abs() > ERROR_BOUNDS[2].in_sphere * permanent + UNDERFLOW {
+    fn incircle_unfiltered(&self, vertices: [u32; 4], differences: [[f64; 2]; 3], det: f64) -> Sign {
+        if is_incircle_certain::<false>(det, differences, differences.map(lift)) {
             return if det > 0.0 { 1 } else { -1 };
         }
+        self.incircle_exact(vertices)
+    }
+
+    /// Returns the sign with weights, from the differences to the last vertex and to its weight.
+    #[inline(always)]
+    fn power_of(&self, vertices: [u32; 4], [a, b, c]: [[f64; 2]; 3], weights: [f64; 3]) -> Sign {
+        let minor = |p: [f64; 2], q: [f64; 2]| p[0] * q[1] - p[1] * q[0];
+        let squares = [a, b, c].map(lift);
+        let lifts: [f64; 3] = std::array::from_fn(|k| squares[k] - weights[k]);
+        let magnitudes: [f64; 3] = std::array::from_fn(|k| squares[k] + weights[k].abs());
+        let det = lifts[0] * minor(b, c) + lifts[1] * minor(c, a) + lifts[2] * minor(a, b);
+        if det.abs() > self.in_sphere_bound || det.abs() > local_bound::<true>(greatest(magnitudes)) {
+            return if det > 0.0 { 1 } else { -1 };
+        }
+        self.power_unfiltered(vertices, [a, b, c], magnitudes, det)
+    }
+
+    #[inline(never)]
+    fn power_unfiltered(&self, vertices: [u32; 4], differences: [[f64; 2]; 3], magnitudes: [f64; 3], det: f64) -> Sign {
+        if is_incircle_certain::<true>(det, differences, magnitudes) {
+            return if det > 0.0 { 1 } else { -1 };
+        }
+        self.incircle_exact(vertices)
+    }
+
+    /// Returns the sign by integers or expansions, and ties symbolically.
+    #[inline(always)]
+    fn incircle_exact(&self, vertices: [u32; 4]) -> Sign {
         let sign = match &self.exact {
+            _ if W => self.power_sign(vertices, integer::power2d),
             ExactStage::Narrow => {
                 self.count(|c| &mut c.integer);
                 let [a, b, c, d] = vertices.map(|v| self.narrow(v));
@@ -155,14 +187,23 @@ impl PredicateContext2<'_> {
     }
 }
 
+/// Returns whether the value of an in-circle determinant of these differences and the magnitudes of lifts has its sign.
+#[inline(always)]
+fn is_incircle_certain<const W: bool>(det: f64, [a, b, c]: [[f64; 2]; 3], [ma, mb, mc]: [f64; 3]) -> bool {
+    let permanent = |p: [f64; 2], q: [f64; 2]| (p[0] * q[1]).abs() + (p[1] * q[0]).abs();
+    let permanent = ma * permanent(b, c) + mb * permanent(c, a) + mc * permanent(a, b);
+    det.abs() > in_sphere_error::<2, W>() * permanent + underflow::<W>()
+}
+
 /// Returns a bound of an in-circle determinant's error, from the greatest squared distance *L* of
 /// its three points to the fourth: the permanent of two vectors is at most the product of their
 /// lengths, so that of the determinant is at most 3·L². The last factor covers the roundings in the
-/// bound itself.
+/// bound itself. With weights, *L* is the greatest sum of a squared distance and the magnitude of a difference of
+/// weights.
 #[inline]
-fn local_bound(greatest_lift: f64) -> f64 {
-    const FACTOR: f64 = 3.0 * ERROR_BOUNDS[2].in_sphere * (1.0 + 64.0 * EPSILON);
-    FACTOR * (greatest_lift * greatest_lift) + UNDERFLOW
+fn local_bound<const W: bool>(greatest_lift: f64) -> f64 {
+    let factor = const { 3.0 * in_sphere_error::<2, W>() * (1.0 + 64.0 * EPSILON) };
+    factor * (greatest_lift * greatest_lift) + underflow::<W>()
 }
 
 /// Returns the squared distance from the origin.
@@ -174,7 +215,10 @@ fn lift(p: [f64; 2]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{input::lattice::Lattice, predicates::filter::Scale};
+    use crate::{
+        input::lattice::Lattice,
+        predicates::filter::{PredicateContext2, Scale},
+    };
     use proptest::prelude::*;
 
     /// Checks that every sign of a `PredicateContext2` for the first four points agrees with the

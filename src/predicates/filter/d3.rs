@@ -1,7 +1,8 @@
 //! The 3D predicates.
 
 use crate::predicates::filter::{
-    EPSILON, ERROR_BOUNDS, ExactStage, PredicateContext3, PredicatesAt, UNDERFLOW, greatest, minus,
+    EPSILON, ERROR_BOUNDS, ExactStage, PredicateContext, PredicateContext3, PredicatesAt, UNDERFLOW, greatest, minus,
+    weights::{in_sphere_error, underflow},
 };
 use crate::{
     index::NONE,
@@ -10,10 +11,10 @@ use crate::{
 use std::cell::Cell;
 
 /// A point lifted to the paraboloid, as a row of the in-sphere determinant: its difference (x, y, z)
-/// to a given vertex, and the square *l* of its distance.
+/// to a given vertex, and the square *l* of its distance, less the difference of their weights.
 ///
-/// They are stored as x, y, z, x, l, l, y, and nothing: all pairs that [`minors`] takes are in it, so
-/// that none needs to be put together for each test.
+/// They are stored as x, y, z, x, l, l, y, and, with weights, the sum of the magnitudes of the two that *l* is the
+/// difference of: all pairs that [`minors`] takes are in it, so that none needs to be put together for each test.
 #[derive(Clone, Copy)]
 #[repr(align(64))]
 pub(crate) struct Row([f64; 8]);
@@ -23,17 +24,28 @@ impl Row {
     /// makes determinants NaN, so that no filter decides.
     pub(crate) const NONE: Row = Row([f64::NAN; 8]);
 
+    /// Creates the row from the differences of coordinates and, if `W`, of weights.
     #[inline(always)]
-    fn new([x, y, z]: [f64; 3]) -> Self {
-        let l = lift([x, y, z]);
-        Row([x, y, z, x, l, l, y, 0.0])
+    fn new<const W: bool>([x, y, z]: [f64; 3], weight: f64) -> Self {
+        let square = lift([x, y, z]);
+        if !W {
+            return Row([x, y, z, x, square, square, y, 0.0]);
+        }
+        let l = square - weight;
+        Row([x, y, z, x, l, l, y, square + weight.abs()])
     }
 
-    /// Returns x, y, z and l.
+    /// Returns l, or the sum of the magnitudes in it.
     #[inline(always)]
-    fn columns(&self) -> [f64; 4] {
-        let [x, y, z, _, l, ..] = self.0;
-        [x, y, z, l]
+    fn magnitude<const W: bool>(&self) -> f64 {
+        self.0[if W { 7 } else { 4 }]
+    }
+
+    /// Returns x, y, z and the magnitude.
+    #[inline(always)]
+    fn columns<const W: bool>(&self) -> [f64; 4] {
+        let [x, y, z, ..] = self.0;
+        [x, y, z, self.magnitude::<W>()]
     }
 
     /// Returns the numbers from the `k`-th on.
@@ -88,7 +100,7 @@ impl Rows {
     }
 }
 
-impl PredicatesAt<'_, '_, 3> {
+impl<const W: bool> PredicatesAt<'_, '_, 3, W> {
     /// Returns the context's `orient3d` with the vertex as d.
     #[inline]
     pub(crate) fn orient3d(&self, a: u32, b: u32, c: u32) -> Sign {
@@ -134,13 +146,34 @@ impl PredicatesAt<'_, '_, 3> {
         if self.stored.is_empty() {
             return self.context.insphere_computed(vertices);
         }
+        if W {
+            return self.power(vertices);
+        }
         self.context.insphere_of(vertices, [a, b, c, d].map(|v| minus(self.stored[v as usize], self.place)))
+    }
+
+    /// Returns the sign of the determinant with weights.
+    #[inline(never)]
+    fn power(&self, vertices: [u32; 5]) -> Sign {
+        let [a, b, c, d, _] = vertices;
+        let rows = [a, b, c].map(|v| self.row(v));
+        let (det, is_certain) = self.insphere_of_rows(rows.each_ref(), d);
+        if is_certain {
+            return if det > 0.0 { 1 } else { -1 };
+        }
+        self.insphere_again(det, rows.each_ref(), [a, b, c, d], 3)
     }
 
     /// Returns the row of vertex `v`.
     #[inline(always)]
     pub(crate) fn row(&self, v: u32) -> Row {
-        self.stored.get(v as usize).map_or(Row::NONE, |&p| Row::new(minus(p, self.place)))
+        self.stored.get(v as usize).map_or(Row::NONE, |&p| self.row_of(p, v))
+    }
+
+    /// Returns the row of vertex `v`, whose coordinates are `p`.
+    #[inline(always)]
+    fn row_of(&self, p: [f64; 3], v: u32) -> Row {
+        Row::new::<W>(minus(p, self.place), self.weight_to(v))
     }
 
     /// Returns the value of the determinant of [`insphere`](Self::insphere) from the rows of a, b and
@@ -151,11 +184,12 @@ impl PredicatesAt<'_, '_, 3> {
     #[inline(always)]
     pub(crate) fn insphere_of_rows(&self, [a, b, c]: [&Row; 3], d: u32) -> (f64, bool) {
         let Some(&p) = self.stored.get(d as usize) else { return (f64::NAN, false) };
-        let d = Row::new(minus(p, self.place));
-        let det = lifted_determinant(a, b, c, &d);
+        let row = self.row_of(p, d);
+        let det = lifted_determinant(a, b, c, &row);
         // The sum is no less than the greatest, and needs no comparisons, which processors often predict wrongly.
-        let [la, lb, lc, ld] = [a, b, c, &d].map(|row| row.0[4]);
-        let is_certain = det.abs() > self.context.in_sphere_bound || det * det > squared_bound((la + lb) + (lc + ld));
+        let [la, lb, lc, ld] = [a, b, c, &row].map(Row::magnitude::<W>);
+        let bound = squared_bound::<W>((la + lb) + (lc + ld));
+        let is_certain = det.abs() > self.context.in_sphere_bound || det * det > bound;
         (det, is_certain)
     }
 
@@ -163,7 +197,7 @@ impl PredicatesAt<'_, '_, 3> {
     /// [`insphere_of_rows`](Self::insphere_of_rows) left it open, where vertex `k` was d.
     #[inline]
     pub(crate) fn insphere_again(&self, det: f64, [a, b, c]: [&Row; 3], vertices: [u32; 4], k: usize) -> Sign {
-        if is_insphere_certain(det, [a, b, c, &self.row(vertices[k % 4])]) {
+        if is_insphere_certain::<W>(det, [a, b, c, &self.row(vertices[k % 4])]) {
             return if det > 0.0 { 1 } else { -1 };
         }
         let [a, b, c, d] = vertices;
@@ -172,12 +206,6 @@ impl PredicatesAt<'_, '_, 3> {
 }
 
 impl PredicateContext3<'_> {
-    /// Returns the sign of det(b − a, c − a, d − a).
-    #[inline]
-    pub fn orient3d(&self, a: u32, b: u32, c: u32, d: u32) -> Sign {
-        self.at(d).orient3d(a, b, c)
-    }
-
     /// Returns [`orient3d`](Self::orient3d), from `rows` if coordinates are not stored.
     #[inline(never)]
     pub(crate) fn orient3d_around(&self, rows: &Rows, [at, b, c, d]: [u32; 4]) -> Sign {
@@ -200,6 +228,14 @@ impl PredicateContext3<'_> {
         }
         // Exchanging two vertices changes the sign.
         -self.insphere_lifted([e, b, c, d, at], [e, b, c, d].map(|v| rows.row(self, at, v)))
+    }
+}
+
+impl<const W: bool> PredicateContext<'_, 3, W> {
+    /// Returns the sign of det(b − a, c − a, d − a).
+    #[inline]
+    pub fn orient3d(&self, a: u32, b: u32, c: u32, d: u32) -> Sign {
+        self.at(d).orient3d(a, b, c)
     }
 
     #[inline(never)]
@@ -278,7 +314,7 @@ impl PredicateContext3<'_> {
         let lifts = rows.map(|[_, _, _, l]| l);
         let [a, b, c, d] = rows.map(|[x, y, z, _]| [x, y, z]);
         let det = insphere_determinant([a, b, c, d], lifts);
-        if det.abs() > self.in_sphere_bound || det * det > squared_bound(greatest(lifts)) {
+        if det.abs() > self.in_sphere_bound || det * det > squared_bound::<false>(greatest(lifts)) {
             return if det > 0.0 { 1 } else { -1 };
         }
         self.insphere_unfiltered(vertices, [a, b, c, d], det)
@@ -286,8 +322,8 @@ impl PredicateContext3<'_> {
 
     #[inline(never)]
     fn insphere_unfiltered(&self, vertices: [u32; 5], [a, b, c, d]: [[f64; 3]; 4], det: f64) -> Sign {
-        let rows = [a, b, c, d].map(Row::new);
-        if is_insphere_certain(det, rows.each_ref()) {
+        let rows = [a, b, c, d].map(|p| Row::new::<false>(p, 0.0));
+        if is_insphere_certain::<false>(det, rows.each_ref()) {
             return if det > 0.0 { 1 } else { -1 };
         }
         self.insphere_exact(vertices)
@@ -297,6 +333,7 @@ impl PredicateContext3<'_> {
     #[inline(never)]
     fn insphere_exact(&self, vertices: [u32; 5]) -> Sign {
         let sign = match &self.exact {
+            _ if W => self.power_sign(vertices, integer::power3d),
             ExactStage::Narrow => {
                 self.count(|c| &mut c.integer);
                 let [a, b, c, d, e] = vertices.map(|v| self.narrow(v));
@@ -334,13 +371,16 @@ impl PredicateContext3<'_> {
 /// The permanent of three vectors is at most √3 times the product of their lengths, by Cauchy and
 /// Schwarz twice: |b₁c₂| + |b₂c₁| ≤ |b|·|c|, and |a₀| + |a₁| + |a₂| ≤ √3·|a|. So that of the
 /// determinant is at most 4·√3·L^(5/2). The last factor covers the roundings in the bound itself;
-/// the last term, underflow: an error of [`UNDERFLOW`] beside one of at most 2¹²⁰.
+/// the last term, underflow: an error of [`UNDERFLOW`] beside one of at most 2¹²⁰. With weights, *L* is the greatest
+/// sum of a squared distance and the magnitude of a difference of weights, so at least the squared distance; and an
+/// error of 2⁻⁸⁰⁰ may be beside one of at most 2²⁷⁵.
 #[inline]
-fn squared_bound(greatest_lift: f64) -> f64 {
-    const FACTOR: f64 = 48.0 * ERROR_BOUNDS[3].in_sphere * ERROR_BOUNDS[3].in_sphere * (1.0 + 128.0 * EPSILON);
-    const SQUARED_UNDERFLOW: f64 = f64::from_bits((1023 - 700) << 52);
+fn squared_bound<const W: bool>(greatest_lift: f64) -> f64 {
+    let error = const { in_sphere_error::<3, W>() };
+    let factor = 48.0 * error * error * (1.0 + 128.0 * EPSILON);
+    let squared_underflow = const { f64::from_bits((1023 - if W { 500 } else { 700 }) << 52) };
     let squared = greatest_lift * greatest_lift;
-    FACTOR * (squared * squared) * greatest_lift + SQUARED_UNDERFLOW
+    factor * (squared * squared) * greatest_lift + squared_underflow
 }
 
 /// Returns the squared distance from the origin.
@@ -395,12 +435,12 @@ fn plus(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
 }
 
 /// Returns whether the value of an in-sphere determinant of these rows has its sign.
-fn is_insphere_certain(det: f64, rows: [&Row; 4]) -> bool {
-    det.abs() > ERROR_BOUNDS[3].in_sphere * insphere_permanent(rows) + UNDERFLOW
+fn is_insphere_certain<const W: bool>(det: f64, rows: [&Row; 4]) -> bool {
+    det.abs() > in_sphere_error::<3, W>() * insphere_permanent::<W>(rows) + underflow::<W>()
 }
 
-fn insphere_permanent(rows: [&Row; 4]) -> f64 {
-    let [a, b, c, d] = rows.map(Row::columns);
+fn insphere_permanent<const W: bool>(rows: [&Row; 4]) -> f64 {
+    let [a, b, c, d] = rows.map(Row::columns::<W>);
     let minor = |p: [f64; 4], q: [f64; 4]| (p[0] * q[1]).abs() + (q[0] * p[1]).abs();
     let (ab, bc, cd, da) = (minor(a, b), minor(b, c), minor(c, d), minor(d, a));
     let (ac, bd) = (minor(a, c), minor(b, d));

@@ -3,6 +3,7 @@
 
 mod d2;
 mod d3;
+mod weights;
 
 pub(crate) use d3::{Row, Rows};
 
@@ -16,6 +17,7 @@ use crate::{
     stats::ExactCounts,
 };
 use std::{cell::Cell, sync::Arc};
+use weights::{WEIGHT_BITS, Weights, in_sphere_error, underflow};
 
 /// The maximum roundoff of Shewchuk's determinants, as multiples of their permanents.
 #[derive(Clone, Copy)]
@@ -49,6 +51,9 @@ const UNDERFLOW: f64 = f64::from_bits((1023 - 900) << 52);
 
 /// Points in an order of the caller's choosing (*vertices*), with the predicates on them.
 ///
+/// With weights, for which `W` stands, the in-sphere and in-circle tests are power tests: point *i* is lifted to the
+/// height |pᵢ|² − wᵢ instead of |pᵢ|². Without them, nothing is computed that has to do with weights.
+///
 /// The signs are those of the exact input coordinates; the symbolic ties are those of the input
 /// indices.
 ///
@@ -56,7 +61,7 @@ const UNDERFLOW: f64 = f64::from_bits((1023 - 900) << 52);
 /// that the four predicates have in common but do not share: one function for all, which took the
 /// determinant as a closure, passed the coordinates through memory and made the insertion take 1.5
 /// times as long.
-pub struct PredicateContext<'a, const D: usize> {
+pub struct PredicateContext<'a, const D: usize, const W: bool = false> {
     input: Points<'a, D>,
     lattice: Lattice<D>,
     /// The input index of each vertex; empty if the vertices are the input points in their order.
@@ -64,6 +69,7 @@ pub struct PredicateContext<'a, const D: usize> {
     /// Input coordinates times a power of two that brings the range of every axis below 2³¹; for a
     /// narrow lattice, the lattice coordinates. Empty if they are computed each time.
     coordinates: Arc<Vec<[f64; D]>>,
+    weights: Weights<'a>,
     scaling: Scaling<D>,
     exact: ExactStage<D>,
     /// Bounds, valid for all arguments, of the error of the determinants' floating-point values.
@@ -75,8 +81,8 @@ pub struct PredicateContext<'a, const D: usize> {
 /// The predicates of which one vertex is given, so that its coordinates need not be looked up each
 /// time.
 #[derive(Clone, Copy)]
-pub(crate) struct PredicatesAt<'c, 'a, const D: usize> {
-    context: &'c PredicateContext<'a, D>,
+pub(crate) struct PredicatesAt<'c, 'a, const D: usize, const W: bool = false> {
+    context: &'c PredicateContext<'a, D, W>,
     vertex: u32,
     /// The coordinates of all vertices; empty if they are computed each time.
     stored: &'c [[f64; D]],
@@ -169,9 +175,32 @@ impl<'a, const D: usize> PredicateContext<'a, D> {
     /// Creates the context of [`PredicateContext::new`] by `threads`.
     pub(crate) fn new_by(threads: Threads, input: Points<'a, D>, lattice: &Lattice<D>, indices: Vec<u32>) -> Self {
         let mut context = PredicateContext::of_input(input, lattice);
-        let scaling = &context.scaling;
+        context.store(threads, indices);
+        context
+    }
+
+    /// Creates a context whose vertices are the points of the input in their order. The points must
+    /// be finite, and `lattice` fitted to them.
+    ///
+    /// Nothing is stored, which is best for few predicate evaluations.
+    pub fn of_input(input: Points<'a, D>, lattice: &Lattice<D>) -> Self {
+        PredicateContext::of_weighted(input, &[], lattice)
+    }
+
+    /// Returns the arguments of [`PredicateContext::of_input`] that create an equal context for
+    /// another thread, or `None` if coordinates are stored.
+    pub(crate) fn source(&self) -> Option<(Points<'a, D>, &Lattice<D>)> {
+        self.coordinates.is_empty().then_some((self.input, &self.lattice))
+    }
+}
+
+impl<'a, const D: usize, const W: bool> PredicateContext<'a, D, W> {
+    /// Stores the coordinates of the points with these indices, which become the vertices.
+    fn store(&mut self, threads: Threads, indices: Vec<u32>) {
+        let Self { scaling, lattice, input, .. } = self;
+        let (scaling, lattice, input, weights) = (&*scaling, &*lattice, *input, self.weights.input);
         let mut coordinates = bytemuck::zeroed_vec(indices.len());
-        if let ExactStage::Narrow = context.exact {
+        if let ExactStage::Narrow = self.exact {
             parallel::for_chunks(threads, &mut coordinates, |start, chunk| {
                 for (p, &i) in chunk.iter_mut().zip(&indices[start..]) {
                     *p = scaling.apply(lattice, input.get(i as usize));
@@ -184,19 +213,20 @@ impl<'a, const D: usize> PredicateContext<'a, D> {
                 for ((p, rounded), &i) in coordinates.iter_mut().zip(rounded).zip(&indices[start..]) {
                     let point = input.get(i as usize);
                     *p = scaling.apply(lattice, point);
-                    *rounded = lattice.rounds(point);
+                    *rounded =
+                        lattice.rounds(point) || (W && lattice.weight(weights[i as usize], WEIGHT_BITS).is_none());
                 }
             });
-            // Few inputs have points that are rounded, and few of these have axes that differ.
+            // Few inputs have points that are rounded, and few of these have axes that differ. With weights, the lattice
+            // is not stretched: these would be stretched by another factor for each axis.
             let number = rounded.iter().filter(|&&rounded| rounded).count();
-            let stretched = lattice.stretched(integer::MAX_SHIFT).filter(|_| number > 0);
+            let stretched = if W { None } else { lattice.stretched(integer::MAX_SHIFT).filter(|_| number > 0) };
             let better = stretched.and_then(|lattice| stretch(threads, input, &lattice, &indices, number / 2));
-            context.exact =
+            self.exact =
                 ExactStage::Wide(better.unwrap_or_else(|| Wide { rounded: Arc::new(rounded), stretched: None }));
         }
-        context.coordinates = Arc::new(coordinates);
-        context.indices = Arc::new(indices);
-        context
+        self.coordinates = Arc::new(coordinates);
+        self.indices = Arc::new(indices);
     }
 
     /// Returns a context of the same vertices for another thread, which shares what is stored and
@@ -207,6 +237,7 @@ impl<'a, const D: usize> PredicateContext<'a, D> {
             lattice: self.lattice.clone(),
             indices: Arc::clone(&self.indices),
             coordinates: Arc::clone(&self.coordinates),
+            weights: self.weights.clone(),
             scaling: self.scaling.clone(),
             exact: self.exact.clone(),
             orientation_bound: self.orientation_bound,
@@ -215,11 +246,8 @@ impl<'a, const D: usize> PredicateContext<'a, D> {
         }
     }
 
-    /// Creates a context whose vertices are the points of the input in their order. The points must
-    /// be finite, and `lattice` fitted to them.
-    ///
-    /// Nothing is stored, which is best for few predicate evaluations.
-    pub fn of_input(input: Points<'a, D>, lattice: &Lattice<D>) -> Self {
+    /// Creates a context of which nothing is stored.
+    fn of_weighted(input: Points<'a, D>, weights: &'a [f64], lattice: &Lattice<D>) -> Self {
         let (scaling, exact) = match lattice.width() {
             Width::Narrow => (Scaling::Lattice, ExactStage::Narrow),
             Width::Wide => {
@@ -232,6 +260,7 @@ impl<'a, const D: usize> PredicateContext<'a, D> {
             lattice: lattice.clone(),
             indices: Arc::default(),
             coordinates: Arc::default(),
+            weights: Weights { input: weights, scaled: Arc::default() },
             scaling,
             exact,
             orientation_bound: 0.0,
@@ -241,22 +270,16 @@ impl<'a, const D: usize> PredicateContext<'a, D> {
         let [low, high] = lattice.bounds().map(|corner| context.scaled(corner));
         let extents: [f64; D] = std::array::from_fn(|axis| (high[axis] - low[axis]).max(0.0));
         context.orientation_bound = orientation_bound(extents);
-        context.in_sphere_bound = in_sphere_bound(extents);
+        context.in_sphere_bound = in_sphere_bound::<D, false>(extents, 0.0);
         context
     }
 
     /// Returns the predicates of which `vertex` is given.
     #[inline]
-    pub(crate) fn at(&self, vertex: u32) -> PredicatesAt<'_, 'a, D> {
+    pub(crate) fn at(&self, vertex: u32) -> PredicatesAt<'_, 'a, D, W> {
         let stored = self.coordinates.as_slice();
         let place = if stored.is_empty() { [0.0; D] } else { stored[vertex as usize] };
         PredicatesAt { context: self, vertex, stored, place }
-    }
-
-    /// Returns the arguments of [`PredicateContext::of_input`] that create an equal context for
-    /// another thread, or `None` if coordinates are stored.
-    pub(crate) fn source(&self) -> Option<(Points<'a, D>, &Lattice<D>)> {
-        self.coordinates.is_empty().then_some((self.input, &self.lattice))
     }
 
     /// Adds the counts of other contexts of the same points.
@@ -386,13 +409,14 @@ pub(crate) fn unscaled_orientation_bound<const D: usize>(extents: [f64; D]) -> f
 }
 
 /// Returns a bound of the error of an in-sphere determinant's floating-point value if no difference
-/// of coordinates exceeds the `extents`: its permanent has D + 1 orientations, each times a squared
-/// length.
+/// of coordinates exceeds the `extents`, and none of weights `weights`: its permanent has D + 1 orientations, each
+/// times a squared length and a difference of weights.
 #[inline]
-fn in_sphere_bound<const D: usize>(extents: [f64; D]) -> f64 {
+fn in_sphere_bound<const D: usize, const W: bool>(extents: [f64; D], weights: f64) -> f64 {
     let squared: f64 = extents.iter().map(|x| x * x).sum();
-    let permanent = (D + 1) as f64 * squared * greatest_permanent(extents);
-    ERROR_BOUNDS[D].in_sphere * permanent * (1.0 + 64.0 * EPSILON) + UNDERFLOW
+    let lift = if W { squared + weights } else { squared };
+    let permanent = (D + 1) as f64 * lift * greatest_permanent(extents);
+    in_sphere_error::<D, W>() * permanent * (1.0 + 64.0 * EPSILON) + underflow::<W>()
 }
 
 /// Returns D! times the product of the extents.

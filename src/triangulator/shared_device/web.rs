@@ -101,7 +101,8 @@ impl SharedDevice {
         let driven = async {
             Ok(match engine.drive(host, options, Destination::Device(moved)).await? {
                 Outcome::Made(made) => {
-                    let mesh = made.into_device(engine.gpu()).await?;
+                    let mut mesh = made.into_device(engine.gpu()).await?;
+                    mesh.stats_mut().wrong_meshes = self.setup.known.of::<D>().wrong_meshes();
                     options.report(Phase::Finish, 1.0)?;
                     Ok(mesh)
                 }
@@ -109,7 +110,7 @@ impl SharedDevice {
             })
         };
         let result = driven.await;
-        state.forget_if_lost(&result);
+        state.note_failure::<D, _>(&self.setup, &result);
         result
     }
 

@@ -2,19 +2,22 @@
 //! counter-clockwise by the negation of all *y*, which is undone in what is returned.
 
 use gdel::{
-    AlphaShape, Clip, Csr, Error, Interpolation, Interpolator, Location, Locator, Mesh, Mesh2, Mesh3, Open, Points,
-    Side, SpanningTree, Surface, SurfaceOptions, Voronoi,
+    AlphaShape, Clip, Contours, Csr, Duplicates, Error, Grid, Interpolation, Interpolator, Location, Locator, Mesh,
+    Mesh2, Mesh3, Open, Outside, Points, Side, SpanningTree, Surface, SurfaceOptions, Voronoi,
     internals::{
         cpu::edit::Used,
-        derived::{AlphaEdges, StolenMeasures, SurfaceMesh, VoronoiShapes},
+        derived::{SingularEdges, StolenMeasures, SurfaceMesh, VoronoiShapes, singular},
         geometry::{Euclidean, Geometry},
     },
 };
 use js_sys::{Array, Float64Array, Function, Int32Array, Uint8Array, Uint32Array};
+use std::cell::Cell;
 use wasm_bindgen::{
     JsCast,
     prelude::{JsValue, wasm_bindgen},
 };
+
+mod sphere;
 
 use crate::{
     mesh::{CallerMesh, get, points_of_mesh},
@@ -254,15 +257,17 @@ pub fn locate(
     points: &JsValue,
     mesh: &JsValue,
     queries: &JsValue,
+    options: &JsValue,
     report: Function,
 ) -> Result<JsValue, Thrown> {
-    in_dimension!(dimension, locate_in(points, mesh, queries, report))
+    in_dimension!(dimension, locate_in(points, mesh, queries, options, report))
 }
 
 fn locate_in<M: OfCaller<D, N>, const D: usize, const N: usize>(
     points: &JsValue,
     mesh: &JsValue,
     queries: &JsValue,
+    options: &JsValue,
     report: Function,
 ) -> Result<JsValue, Thrown>
 where
@@ -270,12 +275,13 @@ where
 {
     let task = Task::<M>::new::<D, N>(points, mesh, report, "locate")?;
     let queries = queries_of::<D>(queries)?;
-    let locator = Locator::new(&task.mesh, task.points.points::<D>()?)?;
+    let locator = locator_of(&task, options)?;
     let located = task.in_parts(&queries, 1, |part, located| {
         located.extend(locator.locate_many(part)?);
         Ok(())
     })?;
     let [mut simplices, mut facets] = [room(located.len())?, room(located.len())?];
+    let outside = located.iter().filter(|location| location.simplex().is_none()).count();
     for location in located {
         let (simplex, facet) = match location {
             Location::Inside(simplex) => (simplex as i32, -1),
@@ -288,7 +294,20 @@ where
     Ok(object([
         ("simplices", Int32Array::new_from_slice(&simplices).into()),
         ("facets", Int32Array::new_from_slice(&facets).into()),
+        ("outside", (outside as f64).into()),
     ]))
+}
+
+/// Returns the locator, without a tolerance if it is to be exact.
+fn locator_of<'a, M: OfCaller<D, N>, const D: usize, const N: usize>(
+    task: &'a Task<M>,
+    options: &JsValue,
+) -> Result<Locator<'a, D, N>, Thrown>
+where
+    Euclidean: Geometry<D, N>,
+{
+    let locator = Locator::new(&task.mesh, task.points.points::<D>()?)?;
+    Ok(if get(options, "exact").is_truthy() { locator.exact() } else { locator })
 }
 
 /// Returns the `k` vertices that are nearest to each query, nearest first, and −1 where there are
@@ -333,7 +352,7 @@ where
     Ok(Int32Array::new_from_slice(&nearest))
 }
 
-/// Returns the interpolated value at each query.
+/// Returns the interpolated value at each query, and how many of these are outside the hull.
 #[wasm_bindgen]
 pub fn interpolate(
     dimension: u32,
@@ -341,10 +360,10 @@ pub fn interpolate(
     mesh: &JsValue,
     queries: &JsValue,
     values: &Float64Array,
-    method: &str,
+    options: &JsValue,
     report: Function,
-) -> Result<Float64Array, Thrown> {
-    in_dimension!(dimension, interpolate_in(points, mesh, queries, values, method, report))
+) -> Result<JsValue, Thrown> {
+    in_dimension!(dimension, interpolate_in(points, mesh, queries, values, options, report))
 }
 
 fn interpolate_in<M: OfCaller<D, N>, const D: usize, const N: usize>(
@@ -352,31 +371,221 @@ fn interpolate_in<M: OfCaller<D, N>, const D: usize, const N: usize>(
     mesh: &JsValue,
     queries: &JsValue,
     values: &Float64Array,
-    method: &str,
+    options: &JsValue,
     report: Function,
-) -> Result<Float64Array, Thrown>
+) -> Result<JsValue, Thrown>
 where
     Euclidean: StolenMeasures<D, N>,
 {
     let task = Task::<M>::new::<D, N>(points, mesh, report, "interpolate")?;
     let queries = queries_of::<D>(queries)?;
     let values = numbers_of(values)?;
-    let method = match method {
-        "sibson" => Interpolation::Sibson,
-        "laplace" => Interpolation::Laplace,
-        _ => Interpolation::Linear,
-    };
-    let locator = Locator::new(&task.mesh, task.points.points::<D>()?)?;
-    let interpolator = Interpolator::new(&locator, &values)?;
+    let locator = locator_of(&task, options)?;
+    let (interpolator, method) = interpolator_of(&locator, &values, options)?;
+    let count = Cell::new(0);
     let found = task.in_parts(&queries, 1, |part, found| {
-        found.extend(interpolator.interpolate_many(method, part)?);
+        let part = interpolator.interpolate_many(method, part)?;
+        found.extend(part.values);
+        count.set(count.get() + part.outside);
         Ok(())
     })?;
-    Ok(Float64Array::new_from_slice(&found))
+    let values = Float64Array::new_from_slice(&found).into();
+    Ok(object([("values", values), ("outside", (count.get() as f64).into())]))
 }
 
-/// Returns the Voronoi diagram, clipped to nothing, the hull, the smallest box, or one with these
-/// bounds: the lowest corner, then the highest.
+/// Returns an interpolator and its method.
+fn interpolator_of<'a, const D: usize, const N: usize>(
+    locator: &'a Locator<'a, D, N>,
+    values: &'a [f64],
+    options: &JsValue,
+) -> Result<(Interpolator<'a, D, N>, Interpolation), Thrown>
+where
+    Euclidean: StolenMeasures<D, N>,
+{
+    let word = |name: &str| get(options, name).as_string().unwrap_or_default();
+    let method = match word("method").as_str() {
+        "sibson" => Interpolation::Sibson,
+        "laplace" => Interpolation::Laplace,
+        "sibson-c1" => Interpolation::SibsonC1,
+        "clough-tocher" => Interpolation::CloughTocher,
+        _ => Interpolation::Linear,
+    };
+    let duplicates = match word("duplicates").as_str() {
+        "mean" => Duplicates::Mean,
+        "error" => Duplicates::Error,
+        _ => Duplicates::First,
+    };
+    let outside = match word("outside").as_str() {
+        "nearest" => Outside::Nearest,
+        "linear" => Outside::Linear,
+        // A number, or `nan`.
+        _ => Outside::Value(get(options, "outside").as_f64().unwrap_or(f64::NAN)),
+    };
+    Ok((Interpolator::new(locator, values)?.duplicates(duplicates)?.outside(outside), method))
+}
+
+/// Returns the interpolated value at the centre of each cell of a grid, with *y* growing from row to row, and how many
+/// of these are outside the hull.
+#[wasm_bindgen(js_name = interpolateGrid)]
+pub fn interpolate_grid(
+    dimension: u32,
+    points: &JsValue,
+    mesh: &JsValue,
+    values: &Float64Array,
+    grid: &Float64Array,
+    options: &JsValue,
+    report: Function,
+) -> Result<JsValue, Thrown> {
+    in_dimension!(dimension, interpolate_grid_in(points, mesh, values, grid, options, report))
+}
+
+fn interpolate_grid_in<M: OfCaller<D, N>, const D: usize, const N: usize>(
+    points: &JsValue,
+    mesh: &JsValue,
+    values: &Float64Array,
+    grid: &Float64Array,
+    options: &JsValue,
+    report: Function,
+) -> Result<JsValue, Thrown>
+where
+    Euclidean: StolenMeasures<D, N>,
+{
+    let task = Task::<M>::new::<D, N>(points, mesh, report, "interpolate")?;
+    let values = numbers_of(values)?;
+    let numbers = numbers_of(grid)?;
+    let [size, mut low, mut high]: [[f64; D]; 3] =
+        std::array::from_fn(|row| std::array::from_fn(|axis| numbers.get(D * row + axis).copied().unwrap_or(0.0)));
+    // The negation also turns the rows of a 2D grid around.
+    if D == 2 {
+        [low[1], high[1]] = [-high[1], -low[1]];
+    }
+    let grid = Grid { size: size.map(|count| count as usize), bounds: [low, high] };
+    let locator = locator_of(&task, options)?;
+    let (interpolator, method) = interpolator_of(&locator, &values, options)?;
+    let found = interpolator.interpolate_grid(method, &grid)?;
+    let values = Float64Array::new_from_slice(&found.values).into();
+    Ok(object([("values", values), ("outside", (found.outside as f64).into())]))
+}
+
+/// Returns the weights of the points at each query, as a sparse matrix.
+#[wasm_bindgen(js_name = interpolationWeights)]
+pub fn interpolation_weights(
+    dimension: u32,
+    points: &JsValue,
+    mesh: &JsValue,
+    queries: &JsValue,
+    options: &JsValue,
+    report: Function,
+) -> Result<JsValue, Thrown> {
+    in_dimension!(dimension, weights_in(points, mesh, queries, options, report))
+}
+
+fn weights_in<M: OfCaller<D, N>, const D: usize, const N: usize>(
+    points: &JsValue,
+    mesh: &JsValue,
+    queries: &JsValue,
+    options: &JsValue,
+    report: Function,
+) -> Result<JsValue, Thrown>
+where
+    Euclidean: StolenMeasures<D, N>,
+{
+    let task = Task::<M>::new::<D, N>(points, mesh, report, "interpolate")?;
+    let queries = queries_of::<D>(queries)?;
+    let locator = locator_of(&task, options)?;
+    let values = vec![0.0; task.points.points::<D>()?.len()];
+    let (interpolator, method) = interpolator_of(&locator, &values, options)?;
+    let table = interpolator.weights_many(method, queries.points::<D>()?)?;
+    let offsets: Vec<u32> = table.offsets.iter().map(|&offset| offset as u32).collect();
+    Ok(object([
+        ("offsets", Uint32Array::new_from_slice(&offsets).into()),
+        ("points", Uint32Array::new_from_slice(&table.points).into()),
+        ("weights", Float64Array::new_from_slice(&table.weights).into()),
+        ("outside", (table.outside as f64).into()),
+    ]))
+}
+
+/// Returns the gradient of the values at each point.
+#[wasm_bindgen]
+pub fn gradients(
+    dimension: u32,
+    points: &JsValue,
+    mesh: &JsValue,
+    values: &Float64Array,
+    options: &JsValue,
+    report: Function,
+) -> Result<JsValue, Thrown> {
+    in_dimension!(dimension, gradients_in(points, mesh, values, options, report))
+}
+
+fn gradients_in<M: OfCaller<D, N>, const D: usize, const N: usize>(
+    points: &JsValue,
+    mesh: &JsValue,
+    values: &Float64Array,
+    options: &JsValue,
+    report: Function,
+) -> Result<JsValue, Thrown>
+where
+    Euclidean: StolenMeasures<D, N>,
+{
+    let task = Task::<M>::new::<D, N>(points, mesh, report, "interpolate")?;
+    let values = numbers_of(values)?;
+    let locator = locator_of(&task, options)?;
+    let (interpolator, _) = interpolator_of(&locator, &values, options)?;
+    Ok(coordinates(interpolator.gradients()).into())
+}
+
+/// Returns for each level the contour, or the isosurface in 3D; closed along the hull if that is wanted.
+#[wasm_bindgen]
+pub fn contours(
+    dimension: u32,
+    points: &JsValue,
+    mesh: &JsValue,
+    values: &Float64Array,
+    levels: &Float64Array,
+    closed: bool,
+    report: Function,
+) -> Result<JsValue, Thrown> {
+    in_dimension!(dimension, contours_in(points, mesh, values, levels, closed, report))
+}
+
+fn contours_in<M: OfCaller<D, N>, const D: usize, const N: usize>(
+    points: &JsValue,
+    mesh: &JsValue,
+    values: &Float64Array,
+    levels: &Float64Array,
+    closed: bool,
+    report: Function,
+) -> Result<JsValue, Thrown>
+where
+    Euclidean: Geometry<D, N>,
+{
+    let task = Task::<M>::new::<D, N>(points, mesh, report, "contours")?;
+    let (values, levels) = (numbers_of(values)?, numbers_of(levels)?);
+    let contours = Contours::new(&task.mesh, task.points.points::<D>()?, &values)?;
+    let found = Array::new();
+    for (i, &level) in levels.iter().enumerate() {
+        let contour = if closed { contours.closed_at(level) } else { contours.at(level) };
+        let vertices = ("vertices", coordinates(&contour.vertices).into());
+        found.push(&if D == 2 {
+            let lines = contour.lines();
+            object([
+                ("level", level.into()),
+                vertices,
+                ("lineOffsets", offsets(&lines.offsets)),
+                ("lines", Uint32Array::new_from_slice(&lines.indices).into()),
+            ])
+        } else {
+            let triangles = Uint32Array::new_from_slice(contour.facets.as_flattened()).into();
+            object([("level", level.into()), vertices, ("triangles", triangles)])
+        });
+        task.report(0.1 + 0.8 * (i + 1) as f64 / levels.len() as f64)?;
+    }
+    Ok(found.into())
+}
+
+/// Returns the Voronoi diagram, clipped to nothing, the hull, the smallest box, one with these bounds, the
+/// lowest corner, then the highest, or the convex shape with these corners.
 #[wasm_bindgen]
 pub fn voronoi(
     dimension: u32,
@@ -402,19 +611,22 @@ where
     let task = Task::<M>::new::<D, N>(points, mesh, report, "voronoi")?;
     let points = task.points.points::<D>()?;
     let used = Used::of(points, task.mesh.duplicate_of());
+    let shape = numbers_of(bounds)?;
+    let corner = |start: usize| {
+        std::array::from_fn(|axis| if D == 2 && axis == 1 { -shape[start + axis] } else { shape[start + axis] })
+    };
+    let corners: Vec<[f64; D]> = (0..shape.len() / D).map(|i| corner(D * i)).collect();
     let clip = match (clip, used.as_ref().map_or(points, Used::points).bounds()) {
         ("hull", _) => Clip::Hull,
-        // Flat points, whose box may have no inside, have no cells.
-        ("box", Some(bounds)) if !task.mesh.simplices().is_empty() => Clip::Box(bounds),
+        ("box", Some(bounds)) => Clip::Box(bounds),
         ("bounds", _) => {
-            let bounds = numbers_of(bounds)?;
-            let [mut low, mut high]: [[f64; D]; 2] =
-                [0, D].map(|start| std::array::from_fn(|axis| bounds[start + axis]));
+            let (mut low, mut high) = (corners[0], corners[1]);
             if D == 2 {
-                (low[1], high[1]) = (-high[1], -low[1]);
+                (low[1], high[1]) = (high[1], low[1]);
             }
             Clip::Box([low, high])
         }
+        ("corners", _) => Clip::Convex(&corners),
         _ => Clip::None,
     };
     let voronoi = Voronoi::new(&task.mesh, points, clip)?;
@@ -434,41 +646,48 @@ where
 }
 
 /// Returns the alpha shape for a radius, or without one for the smallest that has all points in at
-/// most so many components.
+/// most so many components; on request with critical values and singular faces.
 #[wasm_bindgen(js_name = alphaShape)]
 pub fn alpha_shape(
     dimension: u32,
     points: &JsValue,
     mesh: &JsValue,
-    alpha: Option<f64>,
-    components: u32,
-    with_critical_values: bool,
+    options: &JsValue,
     report: Function,
 ) -> Result<JsValue, Thrown> {
-    in_dimension!(dimension, alpha_shape_in(points, mesh, alpha, components, with_critical_values, report))
+    in_dimension!(dimension, alpha_shape_in(points, mesh, options, report))
 }
 
 fn alpha_shape_in<M: OfCaller<D, N>, const D: usize, const N: usize>(
     points: &JsValue,
     mesh: &JsValue,
-    alpha: Option<f64>,
-    components: u32,
-    with_critical_values: bool,
+    options: &JsValue,
     report: Function,
 ) -> Result<JsValue, Thrown>
 where
-    Euclidean: AlphaEdges<D, N>,
+    Euclidean: SingularEdges<D, N>,
 {
+    let (mut components, mut are_critical_wanted, mut are_singular_wanted) = (1, false, false);
+    let count = |value: &JsValue| value.as_f64().map(|count| count as usize);
+    option(options, "components", "a number", count, &mut components)?;
+    option(options, "criticalValues", "true or false", JsValue::as_bool, &mut are_critical_wanted)?;
+    option(options, "singular", "true or false", JsValue::as_bool, &mut are_singular_wanted)?;
     let task = Task::<M>::new::<D, N>(points, mesh, report, "alpha")?;
     let shape = AlphaShape::new(&task.mesh, task.points.points::<D>()?)?;
     task.report(0.6)?;
-    // Flat points have no solid for any radius.
-    let alpha = match alpha {
+    // A single point has no radius.
+    let alpha = match get(options, "alpha").as_f64() {
         Some(alpha) => shape.up_to_rounding(alpha),
-        None => shape.auto_alpha(components as usize).unwrap_or(0.0),
+        None => shape.auto_alpha(components).unwrap_or(0.0),
     };
     let complex = shape.at(alpha)?;
-    let critical = if with_critical_values { shape.critical_values() } else { Vec::new() };
+    let critical = if are_critical_wanted { shape.critical_values() } else { Vec::new() };
+    let (mut facets, mut edges, mut vertices) = (Vec::new(), Vec::new(), Vec::new());
+    if are_singular_wanted {
+        facets = singular(complex.facets());
+        edges = Euclidean::singular_edges(&complex);
+        vertices = singular(complex.vertices());
+    }
     task.report(0.9)?;
     let solid: Vec<u32> = complex.solid().map(|t| t as u32).collect();
     let surface: Vec<[u32; D]> = complex.surface().collect();
@@ -482,6 +701,9 @@ where
         ("componentOf", signed(&labels).into()),
         ("radii", Float64Array::new_from_slice(&radii).into()),
         ("criticalValues", Float64Array::new_from_slice(&critical).into()),
+        ("singularFacets", Uint32Array::new_from_slice(facets.as_flattened()).into()),
+        ("singularEdges", Uint32Array::new_from_slice(edges.as_flattened()).into()),
+        ("singularVertices", Uint32Array::new_from_slice(&vertices).into()),
     ]))
 }
 

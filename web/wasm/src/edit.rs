@@ -1,4 +1,4 @@
-//! Meshes in the memory of the CPU that gain and lose points.
+//! Meshes in the memory of the CPU that gain and lose points, and those of weighted points.
 
 use gdel::{
     Error, Mesh2, Mesh3,
@@ -7,6 +7,7 @@ use gdel::{
         cpu::{
             Insert, MeshOf,
             edit::{Edit, Sparse, Used, delaunay_of_used, edit},
+            regular,
         },
         dimension::Dimension,
         mesh::MeshInfo,
@@ -60,6 +61,25 @@ pub fn change(
     let mut mesh = Mesh2::from(CallerMesh::new(&mesh, "triangles", "halfedges")?);
     let changed = changed::<2, 3>(&mut mesh, &points, &before, &removed, &options, Mesh2::compact)?;
     Ok(changed.of(|| mesh2(mesh, true)))
+}
+
+/// Triangulates weighted points in 2 or 3 dimensions; in 2D in delaunator's orientation.
+#[wasm_bindgen]
+pub fn regular_triangulation(
+    dimension: u32,
+    points: JsValue,
+    weights: Vec<f64>,
+    outputs: Outputs,
+    report: Function,
+) -> Result<JsValue, Thrown> {
+    let options = Options { on_progress: Some(Arc::new(reporting(report))), ..Options::default() };
+    let coordinates = Coordinates::new(&points)?;
+    drop(points);
+    if dimension == 3 {
+        return Ok(mesh3(regular::<3>(coordinates.points()?, &weights, &options)?, outputs));
+    }
+    let options = Options { winding: Winding::Clockwise, ..options };
+    Ok(mesh2(regular::<2>(coordinates.points()?, &weights, &options)?, true))
 }
 
 /// What has become of a mesh.

@@ -4,7 +4,7 @@
 use gdel::Points;
 #[cfg(any(feature = "edit", feature = "tools"))]
 use gdel::{Mesh2, Mesh3};
-use js_sys::{Int32Array, Reflect, Uint32Array};
+use js_sys::{Float64Array, Int32Array, Reflect, Uint32Array};
 use wasm_bindgen::{JsCast, JsValue};
 
 #[cfg(any(feature = "tools", feature = "derived"))]
@@ -18,7 +18,7 @@ use crate::{
 /// `None` stands for what the caller did not state.
 #[cfg_attr(
     not(any(feature = "edit", feature = "tools")),
-    expect(dead_code, reason = "the hull and the dimension are for files, proofs and edits")
+    expect(dead_code, reason = "the hull, the dimension and weights are for files, proofs and edits")
 )]
 pub(crate) struct CallerMesh<const N: usize, const H: usize> {
     pub(crate) simplices: Vec<[u32; N]>,
@@ -26,6 +26,8 @@ pub(crate) struct CallerMesh<const N: usize, const H: usize> {
     pub(crate) hull: Option<Vec<[u32; H]>>,
     pub(crate) duplicate_of: Option<Vec<u32>>,
     pub(crate) dimension: Option<u8>,
+    pub(crate) weights: Option<Vec<f64>>,
+    pub(crate) hidden: Option<Vec<u32>>,
 }
 
 impl<const N: usize, const H: usize> CallerMesh<N, H> {
@@ -51,6 +53,20 @@ impl<const N: usize, const H: usize> CallerMesh<N, H> {
                 })
                 .transpose()?,
             dimension: get(mesh, "dimension").as_f64().map(|dimension| dimension as u8),
+            weights: property::<Float64Array>(mesh, "weights")?
+                .map(|array| {
+                    let mut values: Vec<f64> = zeros(array.length())?;
+                    array.copy_to(&mut values);
+                    Ok::<_, Thrown>(values)
+                })
+                .transpose()?,
+            hidden: property::<Uint32Array>(mesh, "hidden")?
+                .map(|array| {
+                    let mut values: Vec<u32> = zeros(array.length())?;
+                    array.copy_to(&mut values);
+                    Ok::<_, Thrown>(values)
+                })
+                .transpose()?,
         })
     }
 

@@ -53,6 +53,7 @@ impl From<Error> for Thrown {
             Error::NotFinite { .. } => "NOT_FINITE",
             Error::NotWholePoints { .. } | Error::ArrayShape { .. } | Error::ArrayLayout => "BAD_INPUT",
             Error::PointCount { .. } | Error::ValueCount { .. } | Error::EmptyBox { .. } => "BAD_INPUT",
+            Error::DuplicateValues { .. } | Error::BadWeight { .. } | Error::WeightedMesh => "BAD_INPUT",
             Error::BadAlpha | Error::BadOption { .. } | Error::BadIndex { .. } | Error::BrokenMesh { .. } => {
                 "BAD_INPUT"
             }
@@ -70,7 +71,7 @@ impl From<Error> for Thrown {
             _ => "INTERNAL",
         };
         let object = self::error(code, &error.to_string());
-        if let Error::NotFinite { index, .. } = error {
+        if let Error::NotFinite { index, .. } | Error::BadWeight { index } = error {
             set(&object, "index", index as f64);
         }
         Thrown(object)

@@ -15,11 +15,16 @@ pub struct WasmTriangulator {
 #[wasm_bindgen]
 impl WasmTriangulator {
     /// Creates a triangulator. If it `compiles_meanwhile`, the backend `auto` has the CPU triangulate while
-    /// kernels are compiled, if that is sooner. If it `tests`, hardware is tested before it is used.
+    /// kernels are compiled, if that is sooner. Where nothing is said of `self_test`, hardware is tested before it
+    /// is used.
     #[wasm_bindgen(constructor)]
-    pub fn new(compiles_meanwhile: bool, tests: bool) -> Self {
+    pub fn new(compiles_meanwhile: bool, self_test: Option<bool>) -> Self {
         let triangulator = Triangulator::compiling_meanwhile(compiles_meanwhile);
-        WasmTriangulator { triangulator: if tests { triangulator } else { triangulator.self_test(false) } }
+        let triangulator = match self_test {
+            Some(self_test) => triangulator.self_test(self_test),
+            None => triangulator,
+        };
+        WasmTriangulator { triangulator }
     }
 
     /// Releases the device.

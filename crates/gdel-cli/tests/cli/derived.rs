@@ -1,4 +1,4 @@
-//! What is derived from a triangulation: `locate`, `interpolate`, `voronoi`, `alpha`, `surface`, `tree`.
+//! What is derived from a triangulation: `locate`, `interpolate`, `contour`, `voronoi`, `alpha`, `surface`, `tree`.
 
 use crate::{BUNNY, command, fails, fails_with, files, folder, gdel, succeeds};
 use std::{
@@ -54,11 +54,54 @@ fn samples() -> tempfile::TempDir {
 }
 
 #[test]
+fn contour() {
+    let folder = samples();
+    let path = folder.path();
+    let lines = ["contour", "square.csv", "--dim", "2", "--values", "value", "--levels", "5.5,-3,16.5"];
+    let run = stats(path, &[&lines[..], &["-o", "lines.geojson"]].concat());
+    assert_eq!((run["levels"].as_u64(), run["segments"].as_u64().map(|n| n > 2)), (Some(3), Some(true)));
+    let read = || fs::read_to_string(path.join("lines.geojson")).unwrap();
+    let collection: serde_json::Value = serde_json::from_str(&read()).unwrap();
+    let features = collection["features"].as_array().unwrap();
+    assert_eq!(features.len(), 3);
+    assert_eq!(features[0]["properties"]["level"], 5.5);
+    for feature in features {
+        let level = feature["properties"]["level"].as_f64().unwrap();
+        for line in feature["geometry"]["coordinates"].as_array().unwrap() {
+            for corner in line.as_array().unwrap() {
+                let [x, y] = [0, 1].map(|axis| corner[axis].as_f64().unwrap());
+                assert!((10.0 * x + y - level).abs() < 1e-12);
+            }
+        }
+    }
+    // Its own file is replaced without asking; closed lines return to where they began.
+    succeeds(path, &[&lines[..], &["--closed", "-o", "lines.geojson"]].concat());
+    let collection: serde_json::Value = serde_json::from_str(&read()).unwrap();
+    let below_all = &collection["features"][1]["geometry"]["coordinates"][0];
+    assert_eq!((below_all.as_array().unwrap().len(), &below_all[0]), (5, &below_all[4]));
+
+    let surface = ["contour", "cube.csv", "--values", "value", "--levels", "55.5"];
+    for file in ["s.ply", "s.stl", "s.vtu", "s.csv"] {
+        succeeds(path, &[&surface[..], &["-o", file]].concat());
+    }
+    let [x, y, z] = ["x", "y", "z"].map(|axis| column(&path.join("s.csv"), axis));
+    assert!(x.len() >= 6 && x.len() % 3 == 0);
+    for i in 0..x.len() {
+        assert!((100.0 * x[i] + 10.0 * y[i] + z[i] - 55.5).abs() < 1e-12);
+    }
+    let level = ["contour", "cube.csv", "--values", "value", "--levels", "nan", "-o", "s.ply"];
+    for wrong in [&level[..], &[&surface[..], &["-o", "s.geojson"]].concat(), &[&lines[..], &["-o", "s.ply"]].concat()]
+    {
+        assert_eq!(gdel(path, wrong).status.code(), Some(2), "{wrong:?}");
+    }
+}
+
+#[test]
 fn locate() {
     let folder = samples();
     let path = folder.path();
     let run = stats(path, &["locate", "cube.csv", "q.xyz", "-o", "l.csv"]);
-    for (key, value) in [("points", 9), ("dimension", 3), ("queries", 3), ("inside", 2), ("hull_triangles", 12)] {
+    for (key, value) in [("points", 9), ("dimension", 3), ("queries", 3), ("outside", 1), ("hull_triangles", 12)] {
         assert_eq!(run[key], value, "{run}");
     }
     let rows = rows(&path.join("l.csv"));
@@ -89,7 +132,7 @@ fn interpolate() {
     for method in ["linear", "laplace", "sibson"] {
         let arguments = ["interpolate", "cube.csv", "q.xyz", "--values", "value", "--method", method, "-fo", "i.csv"];
         let run = stats(path, &arguments);
-        assert_eq!((&run["queries"], &run["with_value"]), (&3.into(), &2.into()));
+        assert_eq!((&run["queries"], &run["outside"]), (&3.into(), &1.into()));
         let values = column(&path.join("i.csv"), "value");
         // A linear function is reproduced.
         assert!((values[0] - 52.625).abs() < 1e-12 && (values[1] - 100.4).abs() < 1e-12, "{method}: {values:?}");
@@ -304,6 +347,34 @@ fn surface_in_all_formats_and_dimensions() {
 }
 
 #[test]
+fn alpha_chooses_the_radii_that_the_page_chooses() {
+    let folder = folder();
+    let path = folder.path();
+    let pinned = include_str!("../../../../tests/data/alphas.txt");
+    let mut found = String::new();
+    for line in pinned.lines() {
+        if let [dim, kind, count, seed, _] = line.split(' ').collect::<Vec<_>>()[..] {
+            succeeds(path, &["generate", kind, count, "--dim", dim, "--seed", seed, "-fo", "p.f64"]);
+            // As it is printed: `serde_json` may round numbers that it reads otherwise.
+            let run = succeeds(path, &["alpha", "p.f64", "--dim", dim, "-fo", "a.vtu", "--stats", "json"]);
+            let alpha = run.split("\"alpha\":").nth(1).and_then(|rest| rest.split(',').next()).unwrap();
+            found += &format!("{dim} {kind} {count} {seed} {alpha}\n");
+        } else {
+            found += &format!("{line}\n");
+        }
+    }
+    assert_eq!(found, pinned, "found:\n{found}");
+}
+
+/// Returns the number of cells of a grid.
+fn cells(vtu: &Path) -> usize {
+    let bytes = fs::read(vtu).unwrap();
+    let text = String::from_utf8_lossy(&bytes);
+    let count = text.split("NumberOfCells=\"").nth(1).and_then(|rest| rest.split('"').next());
+    count.and_then(|count| count.parse().ok()).expect("a count of cells")
+}
+
+#[test]
 fn alpha_in_all_formats_and_dimensions() {
     let folder = samples();
     let path = folder.path();
@@ -318,6 +389,18 @@ fn alpha_in_all_formats_and_dimensions() {
             assert!(fs::metadata(path.join(name)).unwrap().len() > 100, "{name}");
         }
     }
+    // Two triangles with a common edge, an edge, and a vertex; a facet is added by a point above it.
+    fs::write(path.join("parts.xyz"), "0 0\n1 0\n0 1\n1 1\n5 0\n6 0\n9 5\n").unwrap();
+    let run = stats(path, &["alpha", "parts.xyz", "--dim", "2", "--alpha", "1", "--singular", "-fo", "a.vtu"]);
+    assert_eq!((&run["solid"], &run["singular_edges"]), (&2.into(), &1.into()), "{run}");
+    assert_eq!((&run["singular_vertices"], &run["singular_triangles"]), (&1.into(), &serde_json::Value::Null));
+    assert_eq!(cells(&path.join("a.vtu")), 4);
+    fs::write(path.join("parts.xyz"), "0 0 0\n1 0 0\n0 1 0\n0 0 1\n5 0 0\n6 0 0\n5 1 0\n9 9 0\n9 9 1\n0 9 9\n")
+        .unwrap();
+    let run = stats(path, &["alpha", "parts.xyz", "--alpha", "1", "--singular", "-fo", "a.vtu"]);
+    assert_eq!((&run["solid"], &run["singular_triangles"]), (&1.into(), &1.into()), "{run}");
+    assert_eq!((&run["singular_edges"], &run["singular_vertices"]), (&1.into(), &1.into()));
+    assert_eq!(cells(&path.join("a.vtu")), 4);
     // Two pairs of triangles far from each other.
     fs::write(path.join("two.xyz"), "0 0\n1 0\n0 1\n1 1\n9 0\n10 0\n9 1\n10 1\n").unwrap();
     let arguments = ["alpha", "two.xyz", "--dim", "2", "-o", "a.ply"];
@@ -345,7 +428,7 @@ fn tree() {
     // In 2D two of the points coincide.
     let flat = gdel(path, &["tree", "p.xyz", "--dim", "2", "--stats", "json", "-fo", "t.csv"]);
     assert_eq!(String::from_utf8_lossy(&flat.stderr), "gdel: p.xyz: the z coordinates are dropped\n");
-    assert_eq!(fs::read_to_string(path.join("t.csv")).unwrap(), "v0,v1,length\n0,1,1.0\n0,2,2.0\n");
+    assert_eq!(fs::read_to_string(path.join("t.csv")).unwrap(), "v0,v1,length\n0,3,0.0\n0,1,1.0\n0,2,2.0\n");
 }
 
 const COMMANDS: [&[&str]; 5] = [
@@ -379,23 +462,46 @@ fn summaries_statistics_and_repetitions() {
 }
 
 #[test]
-fn flat_and_empty_points_have_empty_answers() {
+fn flat_points_have_answers_in_their_own_dimension() {
     let folder = samples();
     let path = folder.path();
-    for points in ["", "1,2,3,4\n", "0,0,0,1\n1,0,0,2\n0,1,0,3\n1,1,0,4\n", "0,0,0,1\n0,0,0,2\n"] {
+    // Four coplanar points, three on a line, equal ones, none.
+    let flat = [
+        ("0,0,0,1\n1,0,0,2\n0,1,0,3\n1,1,0,4\n", 3, 4, 1.0, "coplanar"),
+        ("0,0,0,1\n1,1,1,2\n2,2,2,3\n", 2, 3, 8.0, "collinear"),
+        ("0,0,0,1\n0,0,0,2\n", 1, 0, 0.0, "equal"),
+        ("", 0, 0, 0.0, "no points"),
+    ];
+    for (points, edges, cells, volume, note) in flat {
         fs::write(path.join("p.csv"), format!("x,y,z,value\n{points}")).unwrap();
         for arguments in COMMANDS {
             let run = stats(path, arguments);
             assert_eq!(run["tetrahedra"], 0, "{run}");
-            for key in ["inside", "with_value", "cells", "solid", "surface", "edges"] {
-                assert!(run.get(key).is_none_or(|count| count == 0), "{key} in {run}");
-            }
-            for key in ["volume", "total_length"] {
-                // Not −0.
-                assert!(run.get(key).is_none_or(|sum| sum.as_f64().is_some_and(|sum| sum.to_bits() == 0)), "{run}");
-            }
+            let expected = [("edges", edges), ("cells", cells)];
+            assert!(expected.iter().all(|&(key, count)| run.get(key).is_none_or(|found| found == count)), "{run}");
+            assert!(run.get("volume").is_none_or(|sum| (sum.as_f64().unwrap() - volume).abs() < 1e-12), "{run}");
+            let summary = succeeds(path, &[arguments, &["--force"]].concat());
+            assert!(
+                summary.contains(&format!("{note}, so there are no tetrahedra")) || summary.contains("are no points"),
+                "{summary}"
+            );
         }
+        succeeds(path, &["voronoi", "p.csv", "-fo", "v.vtu"]);
+        succeeds(path, &["interpolate", "p.csv", "p.csv", "--values", "value", "-fo", "i.csv"]);
+        let found: Vec<String> = rows(&path.join("i.csv"))[1..].iter().map(|row| row[3].clone()).collect();
+        let given: Vec<f64> = points.lines().map(|line| line[6..].parse().unwrap()).collect();
+        // Equal points have the value of the first.
+        let given = if note == "equal" { vec![1.0; given.len()] } else { given };
+        assert_eq!(found.iter().map(|value| value.parse::<f64>().unwrap()).collect::<Vec<_>>(), given);
     }
+    fs::write(path.join("p.csv"), "x,y,z,value\n0,0,0,1\n1,0,0,2\n0,1,0,3\n1,1,0,4\n").unwrap();
+    fs::write(path.join("beside.xyz"), "0.1 0.2 0.3\n").unwrap();
+    succeeds(path, &["locate", "p.csv", "beside.xyz", "-fo", "l.csv"]);
+    assert_eq!(rows(&path.join("l.csv"))[1], ["-1", "-1", "-1", "-1", "-1", "0"]);
+    // What asked `d3-voronoi` for cells of collinear points.
+    fs::write(path.join("line.xyz"), "100 100\n200 200\n300 300\n").unwrap();
+    let run = stats(path, &["voronoi", "line.xyz", "--dim", "2", "-fo", "v.csv"]);
+    assert_eq!((&run["cells"], &run["area"]), (&3.into(), &40_000.0.into()));
     fs::write(path.join("empty.xyz"), "").unwrap();
     fs::write(path.join("p.csv"), CUBE).unwrap();
     for command in ["locate", "interpolate"] {
@@ -403,6 +509,136 @@ fn flat_and_empty_points_have_empty_answers() {
         succeeds(path, &[&[command, "p.csv", "empty.xyz", "-fo", "o.csv"], values].concat());
         assert_eq!(rows(&path.join("o.csv")).len(), 1);
     }
+}
+
+/// The shortest digits that read back, without hundreds of zeros.
+#[test]
+fn tiny_and_huge_numbers_have_exponents() {
+    let folder = samples();
+    let path = folder.path();
+    for scale in ["e-170", "e140", "e-23", "e300"] {
+        fs::write(path.join("p.xyz"), format!("0 0\n3{scale} 0\n0 4{scale}\n")).unwrap();
+        let total: f64 = [3, 4].iter().map(|length| format!("{length}{scale}").parse::<f64>().unwrap()).sum();
+        let arguments = ["tree", "p.xyz", "--dim", "2", "-fo", "t.csv"];
+        let summary = succeeds(path, &arguments);
+        assert!(summary.contains(&format!("total length    {total:e}\n")), "{summary}");
+        let csv = fs::read_to_string(path.join("t.csv")).unwrap();
+        assert_eq!(csv, format!("v0,v1,length\n0,1,3{scale}\n0,2,4{scale}\n"));
+        // The reader of JSON rounds the last bit its own way.
+        let read = stats(path, &arguments)["total_length"].as_f64().unwrap();
+        assert!((read / total - 1.0).abs() < 1e-15, "{read:e}");
+    }
+}
+
+/// Two axes of different units: a function of the one that changes slowly along the other.
+#[test]
+fn rescaled_axes_have_the_same_weight() {
+    let folder = samples();
+    let path = folder.path();
+    // The fractional parts of multiples of irrational numbers: 400 stations in space and time.
+    let station = |i: u32| [f64::from(i) * 0.754_877_666 % 1.0, f64::from(i) * 0.569_840_290_998 % 1.0];
+    let value = |[x, t]: [f64; 2]| (6.0 * x).sin() * (6.0 * t).cos();
+    let row = |[x, t]: [f64; 2]| format!("{},{},{}\n", x * 1000.0, t, value([x, t]));
+    fs::write(path.join("p.csv"), format!("x,y,v\n{}", (0..400).map(|i| row(station(i))).collect::<String>())).unwrap();
+    let queries = (400..600).map(station).map(|p| p.map(|x| 0.1 + 0.8 * x));
+    let lines: String = queries.clone().map(|[x, t]| format!("{} {t}\n", x * 1000.0)).collect();
+    fs::write(path.join("q.xyz"), lines).unwrap();
+    let error = |more: &[&str]| {
+        let arguments = ["interpolate", "p.csv", "q.xyz", "--dim", "2", "--values", "v", "-fo", "o.csv"];
+        succeeds(path, &[&arguments[..], more].concat());
+        let found = column(&path.join("o.csv"), "value");
+        let squares = queries.clone().zip(&found).map(|(q, v)| (value(q) - v) * (value(q) - v));
+        assert!((column(&path.join("o.csv"), "x")[0] - queries.clone().next().unwrap()[0] * 1000.0).abs() < 1e-9);
+        (squares.sum::<f64>() / found.len() as f64).sqrt()
+    };
+    let (as_is, scaled, by_factors) = (error(&[]), error(&["--rescale"]), error(&["--rescale=0.001,1"]));
+    assert!(as_is > 0.3 && scaled < 0.04 && by_factors < 0.04, "{as_is} {scaled} {by_factors}");
+    succeeds(path, &["triangulate", "p.csv", "--dim", "2", "--rescale", "--verify", "-o", "m.npz"]);
+    let wrong = gdel(path, &["triangulate", "p.csv", "--dim", "2", "--rescale=1,2,3"]);
+    assert_eq!(wrong.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&wrong.stderr).contains("2 factors"));
+}
+
+/// The three stations and the query on the border that had no value, and what is to be chosen.
+#[test]
+fn values_on_the_border_outside_and_of_duplicates() {
+    let folder = samples();
+    let path = folder.path();
+    fs::write(path.join("p.csv"), "x,y,v\n0,0,1\n0.3,0.1,1\n0,1,1\n").unwrap();
+    fs::write(path.join("q.xyz"), "0.03 0.01\n0 -1\n").unwrap();
+    let value = |more: &[&str]| {
+        let arguments = ["interpolate", "p.csv", "q.xyz", "--dim", "2", "--values", "v", "-fo", "o.csv"];
+        let run = stats(path, &[&arguments[..], more].concat());
+        let values: Vec<String> = rows(&path.join("o.csv"))[1..].iter().map(|row| row[2].clone()).collect();
+        (run["outside"].as_u64().unwrap(), values.join(" "))
+    };
+    assert_eq!(value(&[]), (1, "1.0 nan".into()));
+    assert_eq!(value(&["--exact"]), (2, "nan nan".into()));
+    assert_eq!(value(&["--outside", "-3", "--method", "sibson"]), (1, "1.0 -3.0".into()));
+    assert_eq!(value(&["--outside", "nearest"]), (1, "1.0 1.0".into()));
+    assert_eq!(value(&["--outside", "linear"]), (1, "1.0 1.0".into()));
+    fs::write(path.join("p.csv"), "x,y,v\n0,0,1\n1,0,1\n0,1,1\n0,0,9\n").unwrap();
+    fs::write(path.join("q.xyz"), "0 0\n").unwrap();
+    assert_eq!(value(&[]).1, "1.0");
+    assert_eq!(value(&["--duplicates", "mean"]).1, "5.0");
+    let arguments = ["interpolate", "p.csv", "q.xyz", "--dim", "2", "--values", "v", "-fo", "o.csv"];
+    fails(
+        path,
+        &[&arguments[..], &["--duplicates", "error"]].concat(),
+        "points 0 and 3 are equal, but their values differ",
+    );
+    let summary = succeeds(path, &arguments);
+    assert!(summary.starts_with("points          4 (1 duplicates)\n"), "{summary}");
+}
+
+/// From stations to a raster.
+#[test]
+fn values_on_a_grid() {
+    let folder = samples();
+    let path = folder.path();
+    let arguments = ["interpolate", "square.csv", "--dim", "2", "--values", "value", "--grid", "4x2"];
+    let run = stats(path, &[&arguments[..], &["-fo", "g.csv"]].concat());
+    assert_eq!((&run["queries"], &run["outside"]), (&8.into(), &0.into()));
+    // The first row is the upper one.
+    assert_eq!(column(&path.join("g.csv"), "y"), [1.5, 1.5, 1.5, 1.5, 0.5, 0.5, 0.5, 0.5]);
+    let expected = [4.0, 9.0, 14.0, 19.0, 3.0, 8.0, 13.0, 18.0];
+    for method in ["linear", "sibson", "sibson-c1", "clough-tocher"] {
+        succeeds(path, &[&arguments[..], &["--method", method, "-fo", "g.npy"]].concat());
+        let file = npyz::NpyFile::new(fs::File::open(path.join("g.npy")).unwrap()).unwrap();
+        assert_eq!(file.shape(), [2, 4]);
+        let values: Vec<f64> = file.into_vec().unwrap();
+        assert!(values.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12), "{method}: {values:?}");
+    }
+    let bounds = [&arguments[..], &["--bounds", "-1,0,3,2", "--outside", "-9", "-fo", "g.csv"]].concat();
+    assert_eq!(stats(path, &bounds)["outside"], 4);
+    assert_eq!(column(&path.join("g.csv"), "value"), [-9.0, 6.5, 16.5, -9.0, -9.0, 5.5, 15.5, -9.0]);
+    succeeds(path, &[&arguments[..], &["--rescale", "-fo", "g.tif"]].concat());
+    assert!(fs::read(path.join("g.tif")).unwrap().starts_with(b"II*\0"));
+    let solid = ["interpolate", "cube.csv", "--values", "value", "--grid", "2x3x4"];
+    succeeds(path, &[&solid[..], &["-fo", "g.npy"]].concat());
+    let file = npyz::NpyFile::new(fs::File::open(path.join("g.npy")).unwrap()).unwrap();
+    assert_eq!(file.shape(), [4, 3, 2]);
+    for (more, error) in [
+        (&["--grid", "4x", "-fo", "g.npy"][..], "numbers with `x` between them"),
+        (&["--grid", "4x0", "-fo", "g.npy"], "numbers with `x` between them"),
+        (&["--grid", "4x4x4", "-fo", "g.npy"], "--grid needs 2 numbers, not 3"),
+        (&["--grid", "4x4", "--bounds", "0,1", "-fo", "g.npy"], "--bounds needs 4 numbers, not 2"),
+        (&["--grid", "4x4", "--bounds", "0,1,0,2", "-fo", "g.npy"], "box"),
+        (&["--grid", "9999999x9999999", "-fo", "g.npy"], "the number of cells of a grid must be below 2³²"),
+        (&["-fo", "g.npy"], "<QUERIES>"),
+        (&["q2.xyz", "-fo", "g.tif"], "rasters need `--grid`"),
+        (&["q2.xyz", "--grid", "4x4", "-fo", "g.npy"], "--grid"),
+    ] {
+        let run = gdel(path, &[&arguments[..6], more].concat());
+        let stderr = String::from_utf8_lossy(&run.stderr);
+        assert!(run.status.code() == Some(2) && stderr.contains(error), "{more:?}: {stderr}");
+    }
+    assert_eq!(gdel(path, &[&solid[..], &["-fo", "g.tif"]].concat()).status.code(), Some(2));
+    fails(
+        path,
+        &["interpolate", "cube.csv", "q.xyz", "--values", "value", "--method", "clough-tocher", "-fo", "g.csv"],
+        "3D",
+    );
 }
 
 #[test]
@@ -458,9 +694,14 @@ fn wrong_usage() {
         (&["alpha", "cube.csv", "--alpha", "nan", "-o", "o.ply"], "not negative"),
         (&["alpha", "cube.csv", "--components", "0", "-o", "o.ply"], "--components"),
         (&["alpha", "cube.csv", "--alpha", "1", "--components", "2", "-o", "o.ply"], "--components needs --alpha auto"),
+        (&["alpha", "cube.csv", "--singular", "-o", "o.ply"], "--singular needs an output that ends in .vtu"),
         (&["alpha", "cube.csv", "-o", "o.csv"], "o.csv: unknown extension, alpha shapes end in .ply"),
         (&["tree", "cube.csv", "-o", "o.ply"], "o.ply: unknown extension, spanning trees end in .csv, .npz, .vtu"),
         (&["tree", "cube.csv", "--dim", "4", "-o", "o.csv"], "--dim"),
+        (
+            &["interpolate", "cube.csv", "q.xyz", "--values", "value", "--outside", "far", "-o", "o.csv"],
+            "a number is needed",
+        ),
     ] {
         let output = gdel(path, arguments);
         let stderr = String::from_utf8_lossy(&output.stderr);
@@ -534,4 +775,89 @@ fn a_full_disk_leaves_old_files() {
         assert_eq!(files(path), [name, "p.f64"]);
         assert_eq!(fs::read(path.join(name)).unwrap(), b"the old file");
     }
+}
+
+/// Longitudes and latitudes: cells that cover the sphere, places in triangles, values between stations.
+#[test]
+fn places_on_a_sphere_have_answers() {
+    let folder = samples();
+    let path = folder.path();
+    let octahedron = "lon,lat,value\n0,0,1\n90,0,2\n180,0,3\n-90,0,4\n0,90,5\n0,-90,6\n";
+    fs::write(path.join("p.csv"), octahedron).unwrap();
+    fs::write(path.join("q.xyz"), "80 10\n0 60\n-90 0\n").unwrap();
+    let run = stats(path, &["voronoi", "p.csv", "--sphere", "-fo", "v.csv"]);
+    assert_eq!(run["cells"], 6);
+    assert!((run["area"].as_f64().unwrap() - 4.0 * std::f64::consts::PI).abs() < 1e-12, "{run}");
+    let cells = rows(&path.join("v.csv"));
+    assert_eq!(cells[0], ["point", "area", "neighbors"]);
+    let mut neighbors: Vec<&str> = cells[1][2].split(' ').collect();
+    neighbors.sort_unstable();
+    assert_eq!(neighbors, ["1", "3", "4", "5"]);
+    for output in ["v.vtu", "v.npz"] {
+        succeeds(path, &["voronoi", "p.csv", "--sphere", "-fo", output]);
+    }
+    let grid = fs::read(path.join("v.vtu")).unwrap();
+    assert!(String::from_utf8_lossy(&grid).contains("NumberOfCells=\"6\""));
+    assert_eq!(array::<f64>(&path.join("v.npz"), "areas").len(), 6);
+    let run = stats(path, &["locate", "p.csv", "q.xyz", "--sphere", "-fo", "l.csv"]);
+    assert_eq!((&run["queries"], &run["outside"]), (&3.into(), &0.into()));
+    let found = rows(&path.join("l.csv"));
+    assert_eq!(found[0], ["triangle", "v0", "v1", "v2", "nearest"]);
+    assert_eq!([1, 2, 3].map(|row| found[row][4].as_str()), ["1", "4", "3"]);
+    assert!(found[1..].iter().all(|row| row[0] != "-1"));
+    let run = stats(path, &["interpolate", "p.csv", "q.xyz", "--values", "value", "--sphere", "-fo", "i.csv"]);
+    assert_eq!(run["outside"], 0);
+    let values = rows(&path.join("i.csv"));
+    assert_eq!((values[3][0].parse(), values[3][2].parse()), (Ok(-90.0), Ok(4.0)));
+    // Three places have a hull, beyond which nothing is known.
+    fs::write(path.join("p.csv"), "lon,lat,value\n0,0,1\n10,0,2\n0,10,3\n").unwrap();
+    let run = stats(path, &["interpolate", "p.csv", "q.xyz", "--values", "value", "--sphere", "-fo", "i.csv"]);
+    assert_eq!(run["outside"], 3);
+    let run = stats(path, &["voronoi", "p.csv", "--sphere", "-fo", "v.csv"]);
+    assert!((run["area"].as_f64().unwrap() - 4.0 * std::f64::consts::PI).abs() < 1e-12, "{run}");
+    // By their names, in whatever order they come.
+    fs::write(path.join("p.csv"), "Latitude,Longitude\n0,0\n0,10\n10,0\n60,60\n").unwrap();
+    fs::write(path.join("q.xyz"), "50 50\n").unwrap();
+    succeeds(path, &["locate", "p.csv", "q.xyz", "--sphere", "-fo", "l.csv"]);
+    assert_eq!(rows(&path.join("l.csv"))[1][4], "3");
+    let clipped = gdel(path, &["voronoi", "p.csv", "--sphere", "--clip", "hull", "-fo", "v.csv"]);
+    assert_eq!(clipped.status.code(), Some(2));
+}
+
+/// The polygon of flat points is written from both sides, and their alpha shape in their own dimension.
+#[test]
+fn flat_points_have_a_hull_and_alpha_shapes() {
+    let folder = samples();
+    let path = folder.path();
+    let triangles = |file: &str| {
+        let text = fs::read_to_string(path.join(file)).unwrap();
+        text.lines().filter(|line| line.starts_with("f ")).count()
+    };
+    fs::write(path.join("flat.xyz"), "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0.3 0.4 0\n").unwrap();
+    let summary = succeeds(path, &["triangulate", "flat.xyz", "--verify", "-o", "hull.obj", "-o", "mesh.npz"]);
+    assert!(summary.contains("all points are coplanar"), "{summary}");
+    assert_eq!(triangles("hull.obj"), 2 * 4);
+    for extension in ["ply", "stl", "glb", "3mf"] {
+        succeeds(path, &["triangulate", "flat.xyz", "-o", &format!("hull.{extension}")]);
+    }
+    let summary = succeeds(path, &["alpha", "flat.xyz", "-fo", "a.obj"]);
+    assert!(
+        summary.contains("coplanar, so there are no tetrahedra") && summary.contains("triangles       3"),
+        "{summary}"
+    );
+    assert_eq!(triangles("a.obj"), 2 * 3);
+    let run = stats(path, &["alpha", "flat.xyz", "--alpha", "0.51", "-fo", "a.vtu"]);
+    let expected = [("solid", 0), ("surface", 2), ("components", 1), ("triangles", 1)];
+    assert!(expected.iter().all(|&(key, count)| run[key] == count), "{run}");
+    let grid = fs::read(path.join("a.vtu")).unwrap();
+    assert!(String::from_utf8_lossy(&grid).contains("NumberOfCells=\"1\""));
+    for (dim, line) in [("2", "0 0\n1 1\n3 3\n"), ("3", "0 0 0\n1 1 1\n3 3 3\n")] {
+        fs::write(path.join("line.xyz"), line).unwrap();
+        let run = stats(path, &["alpha", "line.xyz", "--dim", dim, "-fo", "a.vtu"]);
+        assert_eq!((&run["segments"], &run["components"]), (&2.into(), &1.into()), "{run}");
+        let grid = fs::read(path.join("a.vtu")).unwrap();
+        assert!(String::from_utf8_lossy(&grid).contains("NumberOfCells=\"2\""));
+    }
+    let summary = succeeds(path, &["alpha", "line.xyz", "-fo", "a.ply"]);
+    assert!(summary.contains("collinear"), "{summary}");
 }

@@ -4,6 +4,7 @@ mod derived;
 mod inputs;
 mod outputs;
 mod verify;
+mod weights;
 
 #[path = "../../../gdel-io/tests/io/samples.rs"]
 mod samples;
@@ -67,6 +68,27 @@ fn files(folder: &Path) -> Vec<String> {
 #[test]
 fn adapters_are_listed_in_silence() {
     assert!(!succeeds(folder().path(), &["adapters"]).is_empty());
+}
+
+/// The self-test has the same names in both dimensions, and both backends make the same meshes.
+#[test]
+fn adapters_are_tested() {
+    let report = succeeds(folder().path(), &["adapters", "--test", "--points", "1000,500"]);
+    let lines: Vec<&str> = report.split("\n\n").next().unwrap().lines().collect();
+    let [title, version, device, driver, system, tests @ .., result] = &lines[..] else { panic!("{report}") };
+    assert_eq!((*title, *result), ("gdel report 1", "result: right"), "{report}");
+    assert_eq!(*version, format!("version: {}", env!("CARGO_PKG_VERSION")));
+    for (line, start) in [(device, "device: "), (driver, "driver: "), (system, "system: ")] {
+        assert!(line.starts_with(start), "{report}");
+    }
+    let starts =
+        ["self-test 3D: passed in ", "self-test 2D: passed in ", "3D 1000: ", "3D 500: ", "2D 1000: ", "2D 500: "];
+    assert_eq!(tests.len(), starts.len(), "{report}");
+    for (line, start) in tests.iter().zip(starts) {
+        assert!(line.starts_with(start), "{report}");
+        let end = if start.starts_with("self-test") { " ms)" } else { " ms, same" };
+        assert!(line.ends_with(end), "{report}");
+    }
 }
 
 const BUNNY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/data/bunny.ply");

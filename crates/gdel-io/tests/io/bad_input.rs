@@ -50,6 +50,7 @@ fn files_without_points_of_every_format() {
             Off => Some("OFF\n0 0 0\n".into()),
             Pcd => Some("FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nPOINTS 0\nDATA ascii\n".into()),
             Node => Some("0 3 0 0\n".into()),
+            Ptx => Some(samples::PTX_HEADER.replace("2\n3\n", "0\n3\n")),
             Npy => Some(String::from_utf8_lossy(&samples::npy(&[])[10..]).into_owned()),
             Las | E57 => None,
         };
@@ -100,6 +101,11 @@ fn is_whole(format: PointFormat, name: &str, left: &[u8], length: usize) -> bool
         (PointFormat::RawF64, _) => left.len().is_multiple_of(24),
         // Less its last color, or the comment at the end.
         (PointFormat::Off, _) => left.len() + 13 >= length,
+        // Less the colour of the last point, of either scan.
+        (PointFormat::Ptx, _) => {
+            let first = samples::ptx().find("1\n1\n0 0 0").unwrap();
+            left.len() + 11 >= length || (first - 7..=first).contains(&left.len())
+        }
         (PointFormat::Node, _) => left.len() + 18 >= length,
         // The last points come before a table of chunks that can be done without.
         (PointFormat::Las, "laz") => left.len() + 32 > length,

@@ -12,4 +12,5 @@ mod laz;
 mod meshes;
 mod outputs;
 mod points;
+mod rasters;
 mod three_mf;

@@ -318,3 +318,52 @@ fn columns_that_are_ignored_are_counted() {
     assert_eq!(read2(PointFormat::Text, "1 2 3\n4 5 6\n").ignored_columns, 0);
     assert_eq!(read2(PointFormat::Text, "1 2 3 9\n4 5 6 9\n").ignored_columns, 1);
 }
+
+#[test]
+fn ptx_has_all_scans_in_their_common_coordinates() {
+    let cloud = read(PointFormat::Ptx, samples::ptx());
+    let points = [
+        [10.0, 21.0, 30.0],
+        [9.0, 20.0, 30.0],
+        [10.0, 20.0, 31.0],
+        [9.0, 21.0, 30.0],
+        [10.0, 22.0, 30.0],
+        [-4.0, 3.0, 5.0],
+    ];
+    assert_eq!(cloud.points, PointBuf::F64(points.to_vec()));
+    assert_eq!(cloud.no_return, 1);
+    assert_eq!(cloud.sensors, [[[10.0, 20.0, 30.0]; 5].as_slice(), &[[0.0; 3]]].concat());
+    assert_eq!(cloud.colors.unwrap().rgb[..3], [[255, 0, 0], [0, 255, 0], [0, 0, 255]]);
+    let short = PointFormat::Ptx.read::<3>(samples::PTX_HEADER.as_bytes().to_vec()).unwrap_err();
+    assert!(short.what.contains("before all points"), "{short}");
+}
+
+/// What programs write for padding.
+#[test]
+fn pcd_has_unused_fields_without_values() {
+    let header = "FIELDS x y _ z\nSIZE 4 4 1 4\nTYPE F F U F\nCOUNT 1 1 0 1\nPOINTS 2\n";
+    let expected = single(&[[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
+    assert_eq!(read(PointFormat::Pcd, format!("{header}DATA ascii\n1 2 3\n4 5 6\n")), expected);
+    let binary = [1f32, 2.0, 3.0, 4.0, 5.0, 6.0].iter().flat_map(|x| x.to_le_bytes());
+    let file = format!("{header}DATA binary\n").into_bytes().into_iter().chain(binary).collect::<Vec<u8>>();
+    assert_eq!(read(PointFormat::Pcd, file), expected);
+}
+
+#[test]
+fn decimal_commas_are_read_where_they_can_be_nothing_else() {
+    let expected = [[1.5, 2.0, -3.25e-3], [4.0, 5.5, 6.0]];
+    for (format, file) in [
+        (PointFormat::Text, "1,5 2 -3,25e-3\n4,0 5,5 6\n"),
+        (PointFormat::Text, "1,5;2,0;-3,25e-3\n4;5,5;6\n"),
+        (PointFormat::Text, "1,5\t2,0\t-3,25e-3\n4\t5,5\t6\n"),
+        (PointFormat::Csv, "x;y;z\n1,5;2,0;-3,25e-3\n4;5,5;6\n"),
+        (PointFormat::Csv, "1,5\t2,0\t-3,25e-3\n4\t5,5\t6\n"),
+        (PointFormat::Csv, "x,y,z\n\"1,5\",2,\"-3,25e-3\"\n4,\"5,5\",6\n"),
+    ] {
+        assert_eq!(read_f64(format, file), expected, "{file}");
+    }
+    // Commas between the values.
+    for file in ["1,2,3\n", "1, 2, 3\n", "1 , 2 , 3\n", "1,2,3,tree top\n"] {
+        assert_eq!(read_f64(PointFormat::Text, file), [[1.0, 2.0, 3.0]], "{file}");
+    }
+}

@@ -23,6 +23,17 @@ pub fn mesh() -> Mesh3 {
 }
 
 /// All samples of point clouds, each with a name.
+/// The header of a scan of two columns and three rows, turned by 90° around z, and moved.
+pub const PTX_HEADER: &str = "2\n3\n10 20 30\n0 1 0\n-1 0 0\n0 0 1\n0 1 0 0\n-1 0 0 0\n0 0 1 0\n10 20 30 1\n";
+
+/// Two scans; in the first, the scanner saw nothing in one direction.
+pub fn ptx() -> String {
+    let first =
+        "1 0 0 0.5 255 0 0\n0 0 0 0.5 0 0 0\n0 1 0 0.25 0 255 0\n0 0 1 1 0 0 255\n1 1 0 0 9 9 9\n2 0 0 0 9 9 9\n";
+    let second = PTX_HEADER.replace("2\n3\n10 20 30\n", "1\n1\n0 0 0\n").replace("10 20 30 1\n", "0 0 0 1\n");
+    format!("{PTX_HEADER}{first}{second}3 4 5 0.125 1 2 3\n")
+}
+
 pub fn point_clouds() -> Vec<(PointFormat, &'static str, Vec<u8>)> {
     use PointFormat::*;
     let mut samples = vec![
@@ -36,6 +47,7 @@ pub fn point_clouds() -> Vec<(PointFormat, &'static str, Vec<u8>)> {
         (Text, "pts", b"2\n1 2 3 0.5 1 2 3\n4 5 6 0.5 1 2 3\n1\n7 8 9 0.5 1 2 3".to_vec()),
         (Csv, "named", b"id,y,z,x\n\"a,b\",2,3,1\n2, 5 ,6,4\n".to_vec()),
         (Csv, "bare", b"1;2;3\n4;5;6\n".to_vec()),
+        (Ptx, "", ptx().into()),
         (Pcd, "ascii", pcd_ascii().into()),
         (Pcd, "binary", pcd("binary", &POINTS)),
         (Pcd, "compressed", pcd("binary_compressed", &POINTS)),

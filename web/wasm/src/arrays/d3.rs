@@ -36,11 +36,15 @@ impl Outputs {
 /// memory never shrinks.
 pub(crate) fn mesh3(mesh: Mesh3, outputs: Outputs) -> JsValue {
     let vertex_simplex = outputs.vertex_simplex.then(|| signed(&mesh.vertex_tetrahedron()));
-    let Mesh3 { tetrahedra, neighbors, hull, duplicate_of, dimension, stats, .. } = mesh;
+    let Mesh3 { tetrahedra, neighbors, hull, duplicate_of, dimension, stats, hidden, weights, .. } = mesh;
     let result = object([("dimension", dimension.into()), ("stats", statistics(&stats))]);
     if let Some(array) = vertex_simplex {
         set(&result, "vertexSimplex", array);
     }
+    if !weights.is_empty() {
+        set(&result, "hidden", Uint32Array::new_from_slice(&hidden));
+    }
+    drop((hidden, weights));
     set(&result, "tetrahedra", Uint32Array::new_from_slice(tetrahedra.as_flattened()));
     drop(tetrahedra);
     if outputs.neighbors {

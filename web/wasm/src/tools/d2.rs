@@ -53,6 +53,8 @@ pub fn verify2d(points: &JsValue, mesh: &JsValue) -> Result<JsValue, Thrown> {
     view.hull = mesh.hull.as_ref().map(|hull| hull.as_flattened());
     view.duplicate_of = mesh.duplicate_of.as_deref();
     view.dimension = mesh.dimension;
+    view.weights = mesh.weights.as_deref();
+    view.hidden = mesh.hidden.as_deref();
     // Delaunator's triangles are counter-clockwise where y points down. Without triangles, `hull`
     // is the collinear points in order, which has no orientation.
     if !mesh.simplices.is_empty() {

@@ -44,6 +44,8 @@ pub fn verify3d(points: &JsValue, mesh: &JsValue) -> Result<JsValue, Thrown> {
     view.hull = mesh.hull.as_deref();
     view.duplicate_of = mesh.duplicate_of.as_deref();
     view.dimension = mesh.dimension;
+    view.weights = mesh.weights.as_deref();
+    view.hidden = mesh.hidden.as_deref();
     let report = verify(coordinates.points::<3>()?, view)?;
     let counts = report.counts;
     Ok(report_object(

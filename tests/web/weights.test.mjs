@@ -1,0 +1,117 @@
+// Weighted points: the option `weights` or `radii`, and `mesh.hidden`.
+
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { dimensionsOf, rejectsOf } from './dimensions.mjs';
+import { canonical, randomFrom } from './moving.mjs';
+import { importFrom, project } from './package.mjs';
+
+const gdel = await importFrom(project());
+const { createTriangulator, delaunay2d, delaunay3d, delaunay3dSync, load3d } = gdel;
+
+const DIMENSIONS = dimensionsOf(gdel);
+const rejects = rejectsOf(gdel);
+
+for (const [key, { triangulate, generate, verify, arrays }] of Object.entries(DIMENSIONS)) {
+  const D = Number(key);
+  const [simplices] = arrays;
+  const inOrder = (mesh) => canonical(mesh[simplices], D + 1);
+
+  test(`${D}D: weights hide points, and the mesh is proven`, async () => {
+    const points = await generate('uniform', 2000, { seed: 3 });
+    const random = randomFrom(7);
+    const weights = Float64Array.from({ length: 2000 }, () => 0.02 * random());
+    const mesh = await triangulate(points, { weights });
+    assert.ok(mesh.hidden.length > 100 && mesh.hidden.length < 2000, `${mesh.hidden.length}`);
+    assert.ok(mesh.hidden.every((v, i, all) => i === 0 || all[i - 1] < v));
+    assert.equal(new Set(mesh[simplices]).size + mesh.hidden.length, 2000);
+    assert.deepEqual(mesh.weights, weights);
+    assert.equal(mesh.stats.backend, 'cpu');
+    assert.match(mesh.stats.fallback, /weighted/);
+    const report = await verify(points, mesh);
+    assert.ok(
+      report.passed,
+      JSON.stringify(report.checks.filter(({ state }) => state === 'failed')),
+    );
+    const { weights: _, ...others } = mesh;
+    assert.ok(!(await verify(points, { ...others, weights: undefined })).passed);
+
+    // Radii are the roots of weights, and only differences of these count.
+    const radii = Float32Array.from(weights, Math.sqrt);
+    const squares = Array.from(radii, (r) => r * r + 1);
+    const [a, b] = [
+      await triangulate(points, { radii }),
+      await triangulate(points, { weights: squares }),
+    ];
+    assert.equal(inOrder(a), inOrder(b));
+    assert.equal((await triangulate(points, { radii, backend: 'cpu' })).stats.fallback, null);
+  });
+
+  test(`${D}D: equal weights change nothing`, async () => {
+    const points = await generate('uniform', 500, { seed: 4 });
+    const [mesh, plain] = [
+      await triangulate(points, { weights: new Array(500).fill(-3) }),
+      await triangulate(points),
+    ];
+    assert.equal(inOrder(mesh), inOrder(plain));
+    assert.deepEqual([mesh.hidden, mesh.weights], [new Uint32Array(0), null]);
+    assert.deepEqual([plain.hidden, plain.weights], [new Uint32Array(0), null]);
+    assert.equal((await mesh.nearest(points)).length, 500);
+  });
+
+  test(`${D}D: what needs a Delaunay triangulation says so`, async () => {
+    const points = await generate('uniform', 100, { seed: 5 });
+    const mesh = await triangulate(points, {
+      weights: Array.from({ length: 100 }, (_, i) => i / 1e4),
+    });
+    const before = inOrder(mesh);
+    const needs = /weighted points/;
+    await rejects(mesh.nearest(points), 'BAD_INPUT', needs);
+    await rejects(mesh.voronoi(), 'BAD_INPUT', needs);
+    await rejects(mesh.alphaShape(), 'BAD_INPUT', needs);
+    await rejects(mesh.locate(points), 'BAD_INPUT', needs);
+    await rejects(mesh.update(points), 'BAD_INPUT', needs);
+    await rejects(mesh.insert(points), 'BAD_INPUT', needs);
+    await rejects(mesh.remove([0]), 'BAD_INPUT', needs);
+    if (D === 2) assert.throws(() => mesh.find(0, 0), needs);
+    assert.equal(inOrder(mesh), before);
+    // Files are written all the same.
+    assert.ok((await mesh.toVTU()).length > 0);
+    const plain = await triangulate(points);
+    await rejects(plain.update(points, { weights: [1] }), 'BAD_INPUT', /triangulate anew/);
+  });
+
+  test(`${D}D: bad weights`, async () => {
+    const points = await generate('uniform', 3, { seed: 1 });
+    const bad = (options, message) => rejects(triangulate(points, options), 'BAD_INPUT', message);
+    await bad({ weights: [1, 2] }, /2 weights for 3 points/);
+    await bad({ weights: [1, Number.NaN, 2] }, /weight 1 is NaN/);
+    await bad({ weights: [1, 2, Infinity] }, /weight 2 is Infinity/);
+    await bad({ radii: [1, -2, 3] }, /radius 1 is -2/);
+    await bad({ radii: [1e200, 1, 3] }, /weight 0/);
+    await bad({ weights: 'heavy' }, /an array of numbers/);
+    await bad({ weights: [1, 2, 3], radii: [1, 2, 3] }, /radii/);
+    await bad({ weights: [1, 2, 3], rescale: true }, /rescale/);
+  });
+}
+
+test('in the calling thread, and not at once', async () => {
+  const triangulator = await createTriangulator({ backend: 'cpu', worker: false });
+  const points = [0, 0, 4, 0, 0, 4, 1, 1];
+  const mesh = await triangulator.delaunay2d(points, { radii: [3, 3, 3, 1] });
+  assert.deepEqual([...mesh.hidden], [3]);
+  triangulator.dispose();
+  await load3d();
+  assert.throws(
+    () => delaunay3dSync([0, 0, 0], { weights: [1] }),
+    /do not have the option weights/,
+  );
+});
+
+test('the heaviest of equal points stands for the others', async () => {
+  const points = [0, 0, 4, 0, 0, 4, 1, 1, 1, 1, 1, 1];
+  const mesh = await delaunay2d(points, { weights: [0, 0, 0, 1, 3, 3] });
+  assert.deepEqual([...mesh.duplicateOf], [-1, -1, -1, 4, -1, 4]);
+  const flat = await delaunay3d([0, 0, 0, 1, 0, 0, 0, 1, 0], { weights: [0, 1, 2] });
+  assert.deepEqual([flat.dimension, flat.hidden.length], [2, 0]);
+});
