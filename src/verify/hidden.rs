@@ -24,13 +24,16 @@ pub(crate) struct Simplices<'a, const D: usize, const N: usize> {
 }
 
 impl<const D: usize, const N: usize> Simplices<'_, D, N> {
-    /// Checks which points are hidden, and that the mesh states these. Without weights there are none, and a mesh needs to
-    /// state nothing.
+    /// Checks which points are hidden, and that the mesh states these. Without weights, every distinct point is to be a
+    /// vertex, as another check decides: no point may be stated, and a mesh needs to state nothing.
     pub(crate) fn check(&self, input: &Input<D>, stated: Option<&[u32]>) -> Option<Findings> {
-        if input.weights.is_empty() && stated.is_none() {
-            return None;
-        }
         let mut findings = Findings::default();
+        if input.weights.is_empty() {
+            if let Some(first) = stated?.first() {
+                findings.add(|| Defect::in_mesh(format!("the mesh states that {first} is hidden, without weights")));
+            }
+            return Some(findings);
+        }
         let mut is_vertex = vec![false; input.points.len()];
         self.simplices.as_flattened().iter().for_each(|&v| is_vertex[v as usize] = true);
         let is_spanned = usize::from(input.dimension) == D;
