@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
-from gdel._delaunay import Delaunay
+from gdel._delaunay import Delaunay, State
 from gdel._points import Backend, Floats, as_floats, as_points, as_values
 
 Method: TypeAlias = Literal["linear", "laplace", "sibson", "sibson-c1", "clough-tocher"]
@@ -78,6 +79,35 @@ class Interpolator:
             raise ValueError("fill_value is complex, but the values are not")
         self.fill_value = fill_value
         self.options = options
+        self._gradients: tuple[State, npt.NDArray[Any]] | None = None
+
+    @property
+    def grad(self) -> npt.NDArray[Any]:
+        """The gradients of the values at the points, of shape (npoints, columns of values, ndim).
+
+        They are found when they are first needed, and again if the points have moved. They can be changed in place.
+        """
+        state = self.tri._state
+        if self._gradients is None or self._gradients[0] is not state:
+            columns = self.values.reshape(len(self.values), -1)
+            found = np.empty((*columns.shape, state.points.shape[1]), columns.dtype)
+            for k in range(columns.shape[1]):
+                for part, values in zip(_parts(found[:, k]), _parts(columns[:, k]), strict=True):
+                    values = np.ascontiguousarray(values)
+                    part[:] = state.mesh.gradients(state.points, values, self.options.duplicates)
+            self._gradients = (state, found)
+        return self._gradients[1]
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Return what is pickled, the gradients too, if they are those of the mesh."""
+        known = self._gradients is not None and self._gradients[0] is self.tri._state
+        return self.__dict__ | {"_gradients": self.grad if known else None}
+
+    def __setstate__(self, pickled: dict[str, Any]) -> None:
+        """Take what was pickled."""
+        self.__dict__.update(pickled)
+        if self._gradients is not None:
+            self._gradients = (self.tri._state, pickled["_gradients"])
 
     def __call__(self, *args: Any) -> npt.NDArray[Any]:
         """Return the values at points: an array with the coordinates in the last axis, or one array per coordinate."""
@@ -92,24 +122,29 @@ class Interpolator:
             queries = (queries - self._offset) / self._scale
         queries = np.ascontiguousarray(queries)
         columns = self.values.reshape(len(self.values), -1)
+        gradients = self.grad if self.options.method in ("sibson-c1", "clough-tocher") else None
         found = np.empty((len(queries), columns.shape[1]), columns.dtype)
         for k in range(columns.shape[1]):
-            column = columns[:, k]
-            fill = complex(self.fill_value)
-            if self.is_complex:
-                found[:, k].real = self._interpolated(column.real, queries, fill.real)
-                found[:, k].imag = self._interpolated(column.imag, queries, fill.imag)
-            elif columns.shape[1] == 1:
-                found = self._interpolated(column, queries, fill.real)[:, None]
-            else:
-                found[:, k] = self._interpolated(column, queries, fill.real)
+            slopes = itertools.repeat(None) if gradients is None else _parts(gradients[:, k])
+            fills = (complex(self.fill_value).real, complex(self.fill_value).imag)
+            parts = zip(_parts(found[:, k]), _parts(columns[:, k]), slopes, fills, strict=False)
+            for part, values, slope, fill in parts:
+                part[:] = self._interpolated(values, slope, queries, fill)
         return found.reshape(shape + self.values.shape[1:])
 
-    def _interpolated(self, column: npt.NDArray[Any], queries: npt.NDArray[Any], fill: float) -> Floats:
+    def _interpolated(
+        self, column: npt.NDArray[Any], gradients: npt.NDArray[Any] | None, queries: npt.NDArray[Any], fill: float
+    ) -> Floats:
         state, options = self.tri._state, self.options
-        values = np.ascontiguousarray(column, np.float64)
+        values = np.ascontiguousarray(column)
+        slopes = None if gradients is None else np.ascontiguousarray(gradients)
         method = (options.method, options.outside, fill, options.duplicates)
-        return state.mesh.interpolate(state.points, values, queries, method)
+        return state.mesh.interpolate(state.points, values, slopes, queries, method)
+
+
+def _parts(array: npt.NDArray[Any]) -> list[npt.NDArray[Any]]:
+    """Return the real and the imaginary part of complex numbers, or the array of real ones."""
+    return [array.real, array.imag] if array.dtype.kind == "c" else [array]
 
 
 class LinearNDInterpolator(Interpolator):
@@ -190,7 +225,7 @@ class CloughTocher2DInterpolator(Interpolator):
     """A smooth, piecewise cubic interpolant in 2D, in the shape of `scipy.interpolate.CloughTocher2DInterpolator`.
 
     `tol` and `maxiter` are accepted and ignored: the gradients are found to the last bit in a fixed number of steps.
-    The others are those of `LinearNDInterpolator`.
+    They are the attribute `grad`. The others are those of `LinearNDInterpolator`.
 
     >>> smooth = CloughTocher2DInterpolator([(0, 0), (2, 0), (0, 2), (2, 2)], [0.0, 2.0, 4.0, 6.0])
     >>> round(float(smooth(0.5, 0.25)), 12)
@@ -233,8 +268,8 @@ def griddata(
 ) -> npt.NDArray[Any]:
     """Interpolate values at points in 1D, 2D or 3D, in the shape of `scipy.interpolate.griddata`.
 
-    `method` is ``"linear"``, ``"nearest"``, ``"cubic"`` in 2D (`CloughTocher2DInterpolator`), ``"natural"`` (or
-    ``"sibson"``), or ``"laplace"``.
+    `method` is ``"linear"``, ``"nearest"``, ``"cubic"`` in 2D (`CloughTocher2DInterpolator`) and, by SciPy, in 1D,
+    ``"natural"`` (or ``"sibson"``), or ``"laplace"``.
 
     >>> griddata([(0, 0), (2, 0), (0, 2)], [0.0, 2.0, 4.0], ([0.5, 1.9], [0.5, 0.0]), method="nearest").tolist()
     [0.0, 2.0]
@@ -268,9 +303,15 @@ def griddata(
 def _on_a_line(
     points: npt.NDArray[Any], values: npt.ArrayLike, xi: Any, method: str, fill_value: float
 ) -> npt.NDArray[Any]:
-    """Interpolate in 1D; all methods but the nearest one are linear there."""
+    """Interpolate in 1D: linearly, but for the nearest value and SciPy's cubic splines."""
+    if method == "cubic":
+        from scipy.interpolate import griddata as of_scipy
+
+        splines: npt.NDArray[Any] = of_scipy(points, values, xi, "cubic", fill_value)
+        return splines
     if method not in ("linear", "nearest", "natural", "sibson", "laplace"):
-        raise ValueError(f"unknown interpolation method {method!r}: 'linear', 'nearest', 'natural' or 'laplace'")
+        names = "'linear', 'nearest', 'cubic', 'natural' or 'laplace'"
+        raise ValueError(f"unknown interpolation method {method!r}: {names}")
     values = as_values(values, len(points))
     order = np.argsort(points, kind="stable")
     points, values = points[order], values[order]

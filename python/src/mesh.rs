@@ -11,7 +11,7 @@ use crate::{
     voronoi,
 };
 use gdel::{Error, Mesh2, Mesh3, Points, internals::geometry::Euclidean};
-use numpy::{PyArray1, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
+use numpy::{PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::{exceptions::PyValueError, prelude::*, types::PyDict};
 
 /// A mesh of either dimension, which does not change any more.
@@ -232,20 +232,35 @@ impl Mesh {
         in_dimension!(self, queries::nearest_k(py, &Input::new(points)?, &Input::new(queries)?, k, self.threads))
     }
 
+    /// The gradient of the values at each point.
+    fn gradients<'py>(
+        &self,
+        py: Python<'py>,
+        points: &Bound<'py, PyAny>,
+        values: PyReadonlyArray1<'py, f64>,
+        duplicates: &str,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let input = Input::new(points)?;
+        in_dimension!(self, queries::gradients(py, &input, values.as_slice()?, duplicates, self.threads))
+    }
+
     /// The interpolated value at each query.
-    #[pyo3(signature = (points, values, queries, method))]
+    #[pyo3(signature = (points, values, gradients, queries, method))]
     fn interpolate<'py>(
         &self,
         py: Python<'py>,
         points: &Bound<'py, PyAny>,
         values: PyReadonlyArray1<'py, f64>,
+        gradients: Option<PyReadonlyArray2<'py, f64>>,
         queries: &Bound<'py, PyAny>,
         method: (String, String, f64, String),
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let (input, queries) = (Input::new(points)?, Input::new(queries)?);
         let (interpolation, outside, fill, duplicates) = method;
         let method = Method::new(&interpolation, &outside, fill, &duplicates)?;
-        in_dimension!(self, queries::interpolate(py, &input, values.as_slice()?, &queries, &method, self.threads))
+        let gradients = gradients.as_ref().map(|gradients| gradients.as_slice()).transpose()?;
+        let values = (values.as_slice()?, gradients);
+        in_dimension!(self, queries::interpolate(py, &input, values, &queries, &method, self.threads))
     }
 
     /// The Voronoi diagram, clipped to nothing, "hull" or a box.

@@ -9,7 +9,7 @@ use crate::{
 use gdel::{
     Csr, Duplicates, Error, Interpolation, Interpolator, Locator, NONE, Outside, Points, internals::geometry::Euclidean,
 };
-use numpy::{IntoPyArray, PyArray1};
+use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pyo3::{exceptions::PyValueError, prelude::*};
 
 /// Returns the simplex that contains each query.
@@ -96,6 +96,16 @@ pub(crate) struct Method {
     duplicates: Duplicates,
 }
 
+/// Reads what to do with the values of equal points.
+fn duplicates_of(name: &str) -> PyResult<Duplicates> {
+    match name {
+        "first" => Ok(Duplicates::First),
+        "mean" => Ok(Duplicates::Mean),
+        "error" => Ok(Duplicates::Error),
+        _ => Err(PyValueError::new_err(format!("duplicates must be 'first', 'mean' or 'error', not {name:?}"))),
+    }
+}
+
 impl Method {
     /// Reads names; `fill` is the value outside that `"fill"` stands for.
     pub(crate) fn new(interpolation: &str, outside: &str, fill: f64, duplicates: &str) -> PyResult<Self> {
@@ -116,22 +126,38 @@ impl Method {
             "linear" => Outside::Linear,
             name => return wrong("outside", "'fill', 'nearest' or 'linear'", name),
         };
-        let duplicates = match duplicates {
-            "first" => Duplicates::First,
-            "mean" => Duplicates::Mean,
-            "error" => Duplicates::Error,
-            name => return wrong("duplicates", "'first', 'mean' or 'error'", name),
-        };
-        Ok(Method { interpolation, outside, duplicates })
+        Ok(Method { interpolation, outside, duplicates: duplicates_of(duplicates)? })
     }
 }
 
-/// Returns the interpolated value at each query.
-pub(crate) fn interpolate<'py, M: Core<D, N>, const D: usize, const N: usize>(
+/// Returns the gradient of the values at each point.
+pub(crate) fn gradients<'py, M: Core<D, N>, const D: usize, const N: usize>(
     data: &Data<M, D, N>,
     py: Python<'py>,
     input: &Input<'_>,
     values: &[f64],
+    duplicates: &str,
+    threads: Option<usize>,
+) -> PyResult<Bound<'py, PyArray2<f64>>>
+where
+    Euclidean: Derives<D, N>,
+{
+    let points = input.points::<D>()?;
+    check_values(values.len(), points.len())?;
+    let duplicates = duplicates_of(duplicates)?;
+    let found = compute::run(py, threads, || {
+        let interpolator = Interpolator::new(data.locator(points)?, values)?.duplicates(duplicates)?;
+        Ok(interpolator.gradients().to_vec())
+    })?;
+    Ok(arrays::rows(py, found))
+}
+
+/// Returns the interpolated value at each query; `gradients`, if given, are those of the values.
+pub(crate) fn interpolate<'py, M: Core<D, N>, const D: usize, const N: usize>(
+    data: &Data<M, D, N>,
+    py: Python<'py>,
+    input: &Input<'_>,
+    (values, gradients): (&[f64], Option<&[f64]>),
     queries: &Input<'_>,
     method: &Method,
     threads: Option<usize>,
@@ -144,7 +170,11 @@ where
     // The values of duplicates are looked at once.
     let interpolator = compute::run(py, threads, || {
         let interpolator = Interpolator::new(data.locator(points)?, values)?.outside(method.outside);
-        interpolator.duplicates(method.duplicates)
+        let interpolator = interpolator.duplicates(method.duplicates)?;
+        match gradients {
+            None => Ok(interpolator),
+            Some(gradients) => interpolator.with_gradients(gradients.as_chunks().0),
+        }
     })?;
     let missing = if let Outside::Value(value) = method.outside { value } else { f64::NAN };
     let found = compute::answer(py, threads, queries, missing, |queries| {

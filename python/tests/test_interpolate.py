@@ -104,6 +104,25 @@ def test_pickling():
     np.testing.assert_array_equal(other(QUERIES[3]), interpolator(QUERIES[3]))
 
 
+def test_gradients_are_found_once_kept_and_taken():
+    points, queries = POINTS[2].copy(), QUERIES[2]
+    values = np.stack([points @ [1.0, -2.0], points @ [0.5, 0.25]], axis=1) @ [[1, 2j], [1j, 0]]
+    tri = gdel.Delaunay(points)
+    smooth = gdel.CloughTocher2DInterpolator(tri, values)
+    expected = np.stack([np.array([1.0, -2.0]) + 1j * np.array([0.5, 0.25]), 2j * np.array([1.0, -2.0])])
+    np.testing.assert_allclose(smooth.grad, np.broadcast_to(expected, smooth.grad.shape), atol=1e-12)
+    assert smooth.grad is smooth.grad
+
+    before = smooth(queries)
+    smooth.grad[...] *= 2
+    inside = ~np.isnan(before)
+    assert (smooth(queries)[inside] != before[inside]).any()
+    np.testing.assert_array_equal(pickle.loads(pickle.dumps(smooth))(queries), smooth(queries))
+    tri.update(points[::-1].copy())
+    moved = gdel.CloughTocher2DInterpolator(points[::-1].copy(), values)
+    np.testing.assert_array_equal(smooth(queries), moved(queries))
+
+
 def test_cubic_interpolation_is_scipys():
     points, queries = POINTS[2], QUERIES[2]
     values = np.sin(3 * points[:, 0]) + np.cos(5 * points[:, 1])

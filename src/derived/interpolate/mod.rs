@@ -75,7 +75,7 @@ pub struct Interpolator<'a, const D: usize = 3, const N: usize = 4> {
     /// If the points are in a plane of space, locators of their shadows and of themselves within it.
     plane: Option<Box<[Locator<'a, 2, 3>; 2]>>,
     /// The gradients at the points, once they are needed.
-    gradients: OnceLock<Vec<[f64; D]>>,
+    gradients: OnceLock<Cow<'a, [[f64; D]]>>,
 }
 
 /// The values at many queries: see [`Interpolator::interpolate_many`].
@@ -174,6 +174,21 @@ where
                 }
             }
         }
+        Ok(self)
+    }
+
+    /// Takes the gradients at the points, one per point, instead of finding them: those that another interpolator
+    /// of the same values has [found](Self::gradients), or others.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::ValueCount`] if there are not as many gradients as points.
+    pub fn with_gradients(mut self, gradients: &'a [[f64; D]]) -> Result<Self, Error> {
+        let points = self.values.len();
+        if gradients.len() != points {
+            return Err(Error::ValueCount { values: gradients.len(), points });
+        }
+        self.gradients = OnceLock::from(Cow::Borrowed(gradients));
         Ok(self)
     }
 

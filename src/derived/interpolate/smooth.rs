@@ -43,7 +43,7 @@ where
     /// # Ok::<(), gdel::Error>(())
     /// ```
     pub fn gradients(&self) -> &[[f64; D]] {
-        self.gradients.get_or_init(|| gradients::gradients(self.locator, &self.values))
+        self.gradients.get_or_init(|| gradients::gradients(self.locator, &self.values).into())
     }
 
     /// Returns the value at a query by a smooth method, and whether the query is outside the hull.
