@@ -193,6 +193,32 @@ pub enum Error {
     /// What was asked for exists for Delaunay triangulations only so far, and the mesh is one of weighted points.
     #[error("this is not possible with a mesh of weighted points")]
     WeightedMesh,
+    /// What was asked for does not exist for meshes with constraints so far, and the mesh has some.
+    #[error("this is not possible with a mesh that has constraints")]
+    ConstrainedMesh,
+    /// An end of a constraint is not a point.
+    #[error("the segment {}–{} has an end that is not one of the {points} points", .segment[0], .segment[1])]
+    BadConstraint {
+        /// The first such segment.
+        segment: [u32; 2],
+        /// The number of points.
+        points: usize,
+    },
+    /// Constraints cross where there is no point.
+    #[error("constraints cross where there is no point: {}", crossing(.pairs, *.count))]
+    CrossingConstraints {
+        /// The number of pairs of segments that cross. A segment counts only where it crosses one before it that
+        /// crosses none itself there.
+        count: usize,
+        /// The first pairs in the order of the input, at most 16.
+        pairs: Vec<[[u32; 2]; 2]>,
+    },
+    /// A fill rule needs closed boundaries.
+    #[error("the boundaries are not closed: at point {point}, they do not begin as often as they end")]
+    OpenBoundary {
+        /// The lowest index of a vertex where they are not.
+        point: usize,
+    },
     /// The box that a Voronoi diagram is to be clipped to has no inside, or is not finite.
     #[error("the box has no inside: along the {axis} axis, its lower end must be below its upper end, and both finite")]
     EmptyBox {
@@ -227,6 +253,13 @@ fn fitting(points: &Option<usize>) -> String {
     points.map_or_else(String::new, |points| format!(", enough for about {points} points"))
 }
 
+/// Returns the part of a message that lists segments that cross.
+fn crossing(pairs: &[[[u32; 2]; 2]], count: usize) -> String {
+    let shown: Vec<String> = pairs.iter().map(|[[a, b], [c, d]]| format!("{a}–{b} and {c}–{d}")).collect();
+    let more = if count > pairs.len() { format!(", and {} more pairs", count - pairs.len()) } else { String::new() };
+    shown.join(", ") + &more
+}
+
 fn listed(available: &[String]) -> String {
     if available.is_empty() { "none".to_owned() } else { available.join(", ") }
 }
@@ -244,7 +277,8 @@ impl Error {
             AdapterOfDevice | OutOfMemory { .. } | Threads { .. } | Cancelled => false,
             PointCount { .. } | BadIndex { .. } | ValueCount { .. } | DuplicateValues { .. } | EmptyBox { .. } => false,
             BadAlpha | BadOption { .. } | BrokenMesh { .. } | BadWeight { .. } | BadRadius { .. } => false,
-            WeightedMesh => false,
+            WeightedMesh | ConstrainedMesh => false,
+            BadConstraint { .. } | CrossingConstraints { .. } | OpenBoundary { .. } => false,
         }
     }
 }

@@ -31,6 +31,7 @@
 //! | Which region belongs to each point, how large is it, who are its neighbours? | [`Voronoi`] |
 //! | Which solid, or which surface, do the points describe? | [`AlphaShape`] |
 //! | What connects all points at the least length? Which clusters are there? | [`SpanningTree`] |
+//! | Which triangles has a polygon with holes, or a terrain with breaklines? | [`Triangulator::constrained2d`] |
 //! | The same for places on a globe, by longitude and latitude | [`Sphere`] |
 //! | Which edges, facets and neighbours are there? | [`Mesh3::edges`], [`facets`](Mesh3::facets), [`vertex_neighbors`](Mesh3::vertex_neighbors) |
 //! | How large and how well shaped is each simplex? | [`Mesh3::volumes`], [`circumcenters`](Mesh3::circumcenters), [`radius_ratios`](Mesh3::radius_ratios) |
@@ -67,7 +68,8 @@ mod geometry;
 #[cfg(feature = "gpu")]
 mod gpu;
 
-// What is derived from a mesh.
+// What is derived from a mesh, and what else is made of one.
+mod constrained;
 mod derived;
 
 // What a run says about itself, and what is checked afterwards.
@@ -89,6 +91,7 @@ mod random;
 mod slots;
 
 pub use backend::Backend;
+pub use constrained::{Constrained2, Constraints, Fill};
 pub use d2::{
     Mesh2,
     verify::{MeshView2, verify2d},

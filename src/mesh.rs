@@ -159,6 +159,9 @@ pub trait Mesh<const D: usize, const N: usize>: sealed::Sealed {
 
     /// Returns the weights of the points; none if the mesh is the Delaunay triangulation.
     fn weights(&self) -> &[f64];
+
+    /// Returns whether the mesh is a [constrained](crate::Triangulator::constrained2d) Delaunay triangulation.
+    fn has_constraints(&self) -> bool;
 }
 
 pub(crate) mod sealed {
@@ -237,7 +240,8 @@ pub trait MeshInfo {
 }
 
 /// Implements [`Mesh`], [`MeshInfo`], and methods on `duplicate_of`, which both meshes have, for
-/// `$mesh<$D, $N>` with the simplices in `$simplices`. Its method `opposites` is that of [`Mesh`].
+/// `$mesh<$D, $N>` with the simplices in `$simplices`. Its methods `opposites` and `has_constraints` are
+/// those of [`Mesh`].
 macro_rules! common_methods {
     ($mesh:ident<$D:literal, $N:literal>, $simplices:ident) => {
         impl $crate::mesh::sealed::Sealed for $mesh {}
@@ -257,6 +261,10 @@ macro_rules! common_methods {
 
             fn weights(&self) -> &[f64] {
                 &self.weights
+            }
+
+            fn has_constraints(&self) -> bool {
+                self.has_constraints()
             }
         }
 

@@ -55,6 +55,11 @@ pub struct Mesh2 {
     /// [`Triangulator::regular2d`](crate::Triangulator::regular2d). Empty for a Delaunay triangulation.
     #[cfg_attr(feature = "serde", serde(default))]
     pub weights: Vec<f64>,
+    /// The constrained edges, if the mesh is a constrained Delaunay triangulation:
+    /// [`Triangulator::constrained2d`](crate::Triangulator::constrained2d). Each has its lower vertex first, and they
+    /// ascend. Empty for a Delaunay triangulation.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub constraints: Vec<[u32; 2]>,
     /// The affine dimension of the input: 2; or 1 or 0 if all points are collinear or equal, in
     /// which case there are no triangles. No points at all have dimension 0.
     pub dimension: u8,
@@ -96,6 +101,17 @@ impl Mesh2 {
     pub fn hull_edges(&self) -> impl ExactSizeIterator<Item = [u32; 2]> + Clone + '_ {
         let count = if self.triangles.is_empty() { 0 } else { self.hull.len() };
         (0..count).map(move |i| [self.hull[i], self.hull[(i + 1) % count]])
+    }
+
+    /// Returns whether an edge between two points, which may be duplicates, is one of the
+    /// [`constraints`](Self::constraints).
+    ///
+    /// # Panics
+    ///
+    /// Panics if there is no such point.
+    pub fn is_constrained(&self, edge: [u32; 2]) -> bool {
+        let [a, b] = edge.map(|v| self.representative(v));
+        self.constraints.binary_search(&[a.min(b), a.max(b)]).is_ok()
     }
 
     /// Returns the triangles around every vertex, counter-clockwise; the first one lies behind the
@@ -251,6 +267,11 @@ impl Mesh2 {
 }
 
 impl Mesh2 {
+    /// Returns whether there are constraints.
+    fn has_constraints(&self) -> bool {
+        !self.constraints.is_empty()
+    }
+
     /// Returns for each simplex the simplices opposite its vertices.
     fn opposites(&self) -> Cow<'_, [[u32; 3]]> {
         let triangle = |halfedge: u32| if halfedge == NONE { NONE } else { halfedge / 3 };

@@ -2,6 +2,7 @@
 //! enough.
 
 use crate::verify::{
+    constraints,
     hidden::Simplices,
     input::{Input, dimension_2d},
     report::{Check, Defect, Findings, Outcome, Report},
@@ -53,6 +54,11 @@ pub struct MeshView2<'a> {
     pub weights: Option<&'a [f64]>,
     /// The points that are no vertices because of their weights: see [`Mesh2::hidden`].
     pub hidden: Option<&'a [u32]>,
+    /// The constrained edges, across which triangles need not be Delaunay: see [`Mesh2::constraints`].
+    pub constraints: Option<&'a [[u32; 2]]>,
+    /// The segments that were to become constrained edges: see [`Constraints::segments`](crate::Constraints::segments).
+    /// The mesh does not have them; set them to check that it is that of these segments and no others.
+    pub segments: Option<&'a [[u32; 2]]>,
 }
 
 impl<'a> MeshView2<'a> {
@@ -73,6 +79,8 @@ impl<'a> From<&'a Mesh2> for MeshView2<'a> {
             dimension: Some(mesh.dimension),
             weights: (!mesh.weights.is_empty()).then_some(&mesh.weights),
             hidden: Some(&mesh.hidden),
+            constraints: Some(&mesh.constraints),
+            segments: None,
         }
     }
 }
@@ -118,7 +126,8 @@ pub fn verify2d<'p, 'm>(points: impl Into<Points2<'p>>, mesh: impl Into<MeshView
         }
         findings
     });
-    report.decide_delaunay(|| complex.check_delaunay(&input));
+    let constraints = constraints::sorted(mesh.constraints.unwrap_or_default());
+    report.decide_delaunay(|| complex.check_delaunay(&input, &constraints));
     let mut polygon = Vec::new();
     let closed = complex.check_hull_closed(&mut polygon);
     report.decide(Check::Hull, || {
@@ -142,6 +151,10 @@ pub fn verify2d<'p, 'm>(points: impl Into<Points2<'p>>, mesh: impl Into<MeshView
         blame: Defect::at_triangle,
     };
     report.decide(Check::Hidden, || simplices.check(&input, mesh.hidden));
+    report.decide(Check::Constraints, || {
+        let is_stated = mesh.constraints.is_some() || mesh.segments.is_some();
+        is_stated.then(|| complex.check_constraints(&input, &constraints, mesh.segments))
+    });
     Ok(report)
 }
 
@@ -330,8 +343,25 @@ impl<'a> Complex<'a> {
         }
     }
 
-    /// Checks the Delaunay property and that of the ties. Needs counter-clockwise triangles.
-    fn check_delaunay(&self, input: &Input<2>) -> (Findings, Findings) {
+    /// Checks the constrained edges, and that they are what the segments are made of.
+    fn check_constraints(&self, input: &Input<2>, constraints: &[[u32; 2]], segments: Option<&[[u32; 2]]>) -> Findings {
+        let mut findings = if self.triangles.is_empty() {
+            // Collinear points have an order.
+            let line = input.distinct_in_order();
+            constraints::check_edges(constraints, line.windows(2).map(|pair| [pair[0], pair[1]]))
+        } else {
+            let edges = self.triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
+            constraints::check_edges(constraints, edges)
+        };
+        if let Some(segments) = segments {
+            constraints::check_segments(constraints, segments, input, &mut findings);
+        }
+        findings
+    }
+
+    /// Checks the Delaunay property and that of the ties, except across constrained edges. Needs
+    /// counter-clockwise triangles.
+    fn check_delaunay(&self, input: &Input<2>, constraints: &[[u32; 2]]) -> (Findings, Findings) {
         let (mut delaunay, mut ties) = (Findings::default(), Findings::default());
         for (t, (&[a, b, c], across)) in self.triangles.iter().zip(&self.halfedges).enumerate() {
             for &e in across {
@@ -346,6 +376,10 @@ impl<'a> Complex<'a> {
                     [0, 1] => (&mut ties, "is on the circumcircle, and inside by the order of the indices"),
                     _ => continue,
                 };
+                let [from, to] = self.ends(e as u32);
+                if constraints.binary_search(&[from.min(to), from.max(to)]).is_ok() {
+                    continue;
+                }
                 findings.add(|| Defect::at_triangle(t, format!("point {beyond}, of triangle {}, {kind}", e / 3)));
             }
         }

@@ -289,6 +289,11 @@ impl Mesh3 {
 }
 
 impl Mesh3 {
+    /// Returns whether there are constraints, which exist in 2D only.
+    fn has_constraints(&self) -> bool {
+        false
+    }
+
     /// Returns for each simplex the simplices opposite its vertices.
     fn opposites(&self) -> Cow<'_, [[u32; 4]]> {
         Cow::Borrowed(&self.neighbors)

@@ -33,7 +33,8 @@ impl<'a, const D: usize, const N: usize> Complex<'a, D, N> {
     ///
     /// # Errors
     ///
-    /// [`Error::PointCount`], [`Error::NotFinite`], [`Error::BrokenMesh`], or [`Error::WeightedMesh`].
+    /// [`Error::PointCount`], [`Error::NotFinite`], [`Error::BrokenMesh`], [`Error::WeightedMesh`], or
+    /// [`Error::ConstrainedMesh`].
     pub(crate) fn new(mesh: &'a impl Mesh<D, N>, points: Points<'a, D>) -> Result<Self, Error> {
         let (simplices, neighbors, duplicate_of) = (mesh.simplices(), mesh.opposites(), mesh.duplicate_of());
         if points.len() != duplicate_of.len() {
@@ -42,6 +43,9 @@ impl<'a, const D: usize, const N: usize> Complex<'a, D, N> {
         // All that is derived so far is derived from Delaunay triangulations.
         if !mesh.weights().is_empty() {
             return Err(Error::WeightedMesh);
+        }
+        if mesh.has_constraints() {
+            return Err(Error::ConstrainedMesh);
         }
         points.validate_by(Threads::All)?;
         let broken = |reason| Err(Error::BrokenMesh { reason });

@@ -56,8 +56,12 @@ pub trait Editable<const D: usize>: Sealed + Sized {
 }
 
 /// Checks that a mesh is a Delaunay triangulation.
-fn check_unweighted<const D: usize, const N: usize>(mesh: &impl Mesh<D, N>) -> Result<(), Error> {
-    if mesh.weights().is_empty() { Ok(()) } else { Err(Error::WeightedMesh) }
+fn check_delaunay<const D: usize, const N: usize>(mesh: &impl Mesh<D, N>) -> Result<(), Error> {
+    match (mesh.weights().is_empty(), mesh.has_constraints()) {
+        (false, _) => Err(Error::WeightedMesh),
+        (true, true) => Err(Error::ConstrainedMesh),
+        (true, false) => Ok(()),
+    }
 }
 
 /// Checks that a mesh has as many points.
@@ -98,7 +102,7 @@ macro_rules! on_host {
 
             async fn update(&mut self, triangulator: &Triangulator, points: Points<'_, $D>) -> Result<(), Error> {
                 check_count(self, points.len())?;
-                check_unweighted(self)?;
+                check_delaunay(self)?;
                 let used = Used::of(points, &self.duplicate_of);
                 *self = from_scratch(triangulator, points, used, Restart::NotResident).await?;
                 Ok(())
@@ -110,7 +114,7 @@ macro_rules! on_host {
                 points: Points<'_, $D>,
                 removed: &[u32],
             ) -> Result<(), Error> {
-                check_unweighted(self)?;
+                check_delaunay(self)?;
                 let max_share = <Dimension<$D> as Edit<$D, $N>>::MAX_SHARE;
                 if let Some(again) = edit::<$D, $N>(self, points, removed, &triangulator.options, max_share)? {
                     *self = from_scratch(triangulator, points, again.used(points), again.why).await?;

@@ -40,7 +40,8 @@ impl Triangulator {
     /// # Errors
     ///
     /// Returns the errors of [`Triangulator::delaunay3d`], and [`Error::PointCount`] if the mesh is
-    /// not one of as many points, and [`Error::WeightedMesh`] if the points are weighted. After an error the mesh is what it was before.
+    /// not one of as many points, and [`Error::WeightedMesh`] or [`Error::ConstrainedMesh`] if it is
+    /// not a Delaunay triangulation. After an error the mesh is what it was before.
     pub fn update<'a, const D: usize, M: Editable<D>>(
         &self,
         mesh: &mut M,
@@ -93,7 +94,8 @@ impl Triangulator {
     /// # Errors
     ///
     /// Returns the errors of [`Triangulator::delaunay3d`], and [`Error::PointCount`] if the mesh is not
-    /// one of as many `points`, and [`Error::WeightedMesh`] if the points are weighted. After an error the mesh and `points` are what they were before.
+    /// one of as many `points`, and [`Error::WeightedMesh`] or [`Error::ConstrainedMesh`] if it is
+    /// not a Delaunay triangulation. After an error the mesh and `points` are what they were before.
     pub fn insert<const D: usize, T: Copy, M: Editable<D>>(
         &self,
         mesh: &mut M,
@@ -162,7 +164,8 @@ impl Triangulator {
     ///
     /// Returns the errors of [`Triangulator::delaunay3d`], [`Error::PointCount`] if the mesh is not
     /// one of as many points, and [`Error::BadIndex`] if an index is not below their number, is given
-    /// twice, or was removed before; [`Error::WeightedMesh`] if the points are weighted. After an error the mesh is what it was before.
+    /// twice, or was removed before; [`Error::WeightedMesh`] or [`Error::ConstrainedMesh`] if the
+    /// mesh is not a Delaunay triangulation. After an error the mesh is what it was before.
     pub fn remove<'a, const D: usize, M: Editable<D>>(
         &self,
         mesh: &mut M,

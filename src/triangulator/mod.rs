@@ -1,5 +1,6 @@
 //! Triangulations with options, on the CPU or the GPU.
 
+mod constrained;
 #[cfg(feature = "gpu")]
 mod crossing;
 #[cfg(feature = "gpu")]

@@ -19,10 +19,14 @@
 //! simplices take the place of circumspheres. A point that is no vertex lies in a simplex, and above it when both are
 //! lifted: then it is above the lower side of the lifted points' hull, and the vertices alone are on that.
 //!
+//! With constraints in 2D, which are edges, (4) holds without the test across them: for a given set of constrained
+//! edges there is only one such triangulation.
+//!
 //! 2D is simpler. Triangles that are all oriented alike and meet across edges from either side
 //! cover a point as often as their boundary winds around it: once inside, if that is a convex
 //! polygon that turns once.
 
+pub(crate) mod constraints;
 pub(crate) mod hidden;
 pub(crate) mod input;
 pub(crate) mod report;

@@ -42,7 +42,7 @@ pub enum Check {
     /// The neighbours that the mesh states are the tetrahedra across the facets.
     Neighbors,
     /// No tetrahedron's circumsphere has the opposite vertex of a neighbour strictly inside. With
-    /// weights: no lifted tetrahedron has it strictly below.
+    /// weights: no lifted tetrahedron has it strictly below. In 2D, constrained edges are excepted.
     Delaunay,
     /// Where the opposite vertex of a neighbour lies on the circumsphere, or the lifted tetrahedron, the symbolic perturbation
     /// of the heights puts it outside.
@@ -62,11 +62,14 @@ pub enum Check {
     /// The hidden points that the mesh states are the distinct ones that are no vertices, as weights allow,
     /// and each of these lies above the lifted tetrahedron that contains it.
     Hidden,
+    /// The constrained edges that a 2D mesh states are edges, and if segments are given that these were to become, each
+    /// segment is a chain of them, and each of them a piece of a segment.
+    Constraints,
 }
 
 impl Check {
     /// Every check, in the order in which they run.
-    pub const ALL: [Check; 15] = [
+    pub const ALL: [Check; 16] = [
         Check::Dimension,
         Check::Duplicates,
         Check::Indices,
@@ -82,6 +85,7 @@ impl Check {
         Check::EulerCharacteristic,
         Check::Covering,
         Check::Hidden,
+        Check::Constraints,
     ];
 
     /// Returns a short name, such as `hull-convex`.
@@ -102,6 +106,7 @@ impl Check {
             Check::EulerCharacteristic => "euler-characteristic",
             Check::Covering => "covering",
             Check::Hidden => "hidden",
+            Check::Constraints => "constraints",
         }
     }
 
@@ -110,7 +115,9 @@ impl Check {
         match self {
             Check::Dimension | Check::Duplicates | Check::Indices => &[],
             Check::Vertices | Check::Orientation | Check::Facets => &[Check::Indices],
-            Check::Neighbors | Check::Hull | Check::HullClosed | Check::EulerCharacteristic => &[Check::Facets],
+            Check::Neighbors | Check::Hull | Check::HullClosed | Check::EulerCharacteristic | Check::Constraints => {
+                &[Check::Facets]
+            }
             Check::Delaunay | Check::CanonicalTies => &[Check::Orientation, Check::Facets],
             Check::HullConvex => &[Check::Orientation, Check::HullClosed],
             Check::Covering => &[Check::HullConvex, Check::EulerCharacteristic],

@@ -19,7 +19,7 @@ use proptest::prelude::*;
 use std::collections::BTreeSet;
 
 /// The 2D checks; a polygon that is convex and turns once needs no others.
-const CHECKS: [Check; 13] = [
+const CHECKS: [Check; 14] = [
     Check::Dimension,
     Check::Duplicates,
     Check::Indices,
@@ -33,6 +33,7 @@ const CHECKS: [Check; 13] = [
     Check::HullClosed,
     Check::HullConvex,
     Check::Hidden,
+    Check::Constraints,
 ];
 
 /// The corner of the unit square.
@@ -72,6 +73,12 @@ fn other_arrays(broken: &mut BrokenMeshes) {
     broken.changed(Check::Dimension, "dimension 1 of a square", &square, Mesh, |m| m.dimension = 1);
     broken.changed(Check::Dimension, "dimension 2 of a line", &line, Mesh, |m| m.dimension = 2);
     broken.changed(Check::Dimension, "dimension 3 of a square", &square, Mesh, |m| m.dimension = 3);
+
+    let constraints = Check::Constraints;
+    broken.changed(constraints, "a constraint that is no edge", &square, Mesh, |m| m.constraints.push([0, 8]));
+    broken.changed(constraints, "a constraint twice", &square, Mesh, |m| m.constraints.extend([[0, 1], [1, 0]]));
+    broken.changed(constraints, "a constraint of no points", &square, Mesh, |m| m.constraints.push([9, 7]));
+    broken.changed(constraints, "a constraint over a point", &line, Mesh, |m| m.constraints.push([0, 2]));
 
     let hidden = Check::Hidden;
     broken.changed(hidden, "hidden, though there are no weights", &square, Mesh, |m| m.hidden.push(1));
@@ -389,6 +396,8 @@ proptest! {
         hull in prop::option::of(prop::collection::vec(any::<u32>(), 0..9)),
         duplicate_of in prop::option::of(prop::collection::vec(any::<u32>(), 0..9)),
         dimension in any::<Option<u8>>(),
+        constraints in prop::option::of(prop::collection::vec([0..12u32, 0..12], 0..9)),
+        segments in prop::option::of(prop::collection::vec([0..12u32, 0..12], 0..9)),
     ) {
         let mut statement = MeshView2::of_triangles(&triangles);
         statement.halfedges = halfedges.as_deref();
@@ -396,6 +405,7 @@ proptest! {
         statement.hull = hull.as_deref();
         statement.duplicate_of = duplicate_of.as_deref();
         statement.dimension = dimension;
+        (statement.constraints, statement.segments) = (constraints.as_deref(), segments.as_deref());
         let report = verify2d(&points, statement).unwrap();
         prop_assert_eq!(report.outcomes.len(), CHECKS.len());
         prop_assert_eq!(report.passed(), report.failures().next().is_none());

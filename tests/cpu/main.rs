@@ -9,6 +9,7 @@ mod degenerate;
 mod motions;
 mod oracle;
 
+mod constrained;
 mod conversions;
 mod d2_canonical;
 mod d2_verifier;

@@ -54,6 +54,8 @@ impl From<Error> for Thrown {
             Error::NotWholePoints { .. } | Error::ArrayShape { .. } | Error::ArrayLayout => "BAD_INPUT",
             Error::PointCount { .. } | Error::ValueCount { .. } | Error::EmptyBox { .. } => "BAD_INPUT",
             Error::DuplicateValues { .. } | Error::BadWeight { .. } | Error::WeightedMesh => "BAD_INPUT",
+            Error::BadConstraint { .. } | Error::CrossingConstraints { .. } => "BAD_INPUT",
+            Error::OpenBoundary { .. } | Error::ConstrainedMesh => "BAD_INPUT",
             Error::BadAlpha | Error::BadOption { .. } | Error::BadIndex { .. } | Error::BrokenMesh { .. } => {
                 "BAD_INPUT"
             }

@@ -133,6 +133,7 @@ const CHECKS: Record<string, string> = {
   'hull-convex': 'The hull is convex',
   'euler-characteristic': 'The mesh has no holes',
   covering: 'The cells fill the hull without overlap',
+  constraints: 'Constraints are edges',
 };
 
 function verdictOf(name: string, passed: boolean, detail: string): string {

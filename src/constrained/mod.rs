@@ -1,0 +1,336 @@
+//! Constrained Delaunay triangulation in 2D: the one that contains given segments as edges, and is as Delaunay as
+//! these allow.
+//!
+//! A mesh of the points, by any backend, becomes that of the constraints:
+//!
+//! 1. `flat`: collinear points have no triangles, and segments are pieces of their line;
+//! 2. `insert`: each segment becomes an edge, or several if it leads through vertices, in `topology`;
+//! 3. `fill`: which triangles are inside the boundaries.
+//!
+//! `split` puts points where segments cross, on request; then the points are triangulated anew.
+//!
+//! The answer is unique: all edges that are not constrained are locally Delaunay with the symbolic perturbation of the
+//! heights, and for a given set of constrained edges only one triangulation is (Lee and Lin 1986). So it depends
+//! neither on the order of the constraints nor on how the mesh was made.
+
+mod fill;
+mod flat;
+mod insert;
+mod split;
+mod topology;
+
+use crate::{
+    d2::Mesh2,
+    error::Error,
+    input::points::Points2,
+    parallel::{self, Threads},
+};
+use insert::{Inserted, Inserter, Lost};
+use topology::Marked;
+
+pub(crate) use split::Split;
+
+/// The number of crossings that [`Error::CrossingConstraints`] lists.
+const LISTED: usize = 16;
+
+/// Which triangles are inside the boundaries of [`Constraints`].
+///
+/// # Examples
+///
+/// ```
+/// use gdel::{Constraints, Fill, Triangulator};
+///
+/// // A square in a square, both counter-clockwise.
+/// let points = [[0.0, 0.0], [6.0, 0.0], [6.0, 6.0], [0.0, 6.0], [2.0, 2.0], [4.0, 2.0], [4.0, 4.0], [2.0, 4.0f64]];
+/// let rings = Constraints::new().ring(&[0, 1, 2, 3]).ring(&[4, 5, 6, 7]);
+/// for (fill, count) in [(Fill::All, 10), (Fill::NonZero, 10), (Fill::EvenOdd, 8)] {
+///     let found = Triangulator::new().constrained2d(&points, &rings.clone().fill(fill))?;
+///     assert_eq!(found.inside_triangles().count(), count);
+/// }
+/// # Ok::<(), gdel::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Fill {
+    /// All triangles are inside.
+    #[default]
+    All,
+    /// Those from which a way out crosses boundaries an odd number of times. A boundary that is given twice is none.
+    EvenOdd,
+    /// Those around which boundaries wind, with counter-clockwise turns less clockwise ones.
+    NonZero,
+}
+
+/// Segments that are to be edges of a mesh, by the indices of their ends:
+/// [`Triangulator::constrained2d`](crate::Triangulator::constrained2d).
+///
+/// # Examples
+///
+/// ```
+/// use gdel::{Constraints, Fill};
+///
+/// let constraints = Constraints::new().ring(&[0, 1, 2, 3]).edges(&[[4, 5]]).fill(Fill::EvenOdd);
+/// assert_eq!(constraints.segments(), [[4, 5], [0, 1], [1, 2], [2, 3], [3, 0]]);
+/// ```
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Constraints {
+    edges: Vec<[u32; 2]>,
+    boundary: Vec<[u32; 2]>,
+    fill: Fill,
+    is_split: bool,
+}
+
+impl Constraints {
+    /// Creates no constraints.
+    pub fn new() -> Self {
+        Constraints::default()
+    }
+
+    /// Adds segments that bound nothing, such as the breaklines of a terrain.
+    #[must_use]
+    pub fn edges(mut self, edges: &[[u32; 2]]) -> Self {
+        self.edges.extend(edges);
+        self
+    }
+
+    /// Adds a closed polygon, whose last point is joined to the first. It is a boundary: an outer one, or that of a
+    /// hole, as [`fill`](Constraints::fill) says.
+    #[must_use]
+    pub fn ring(mut self, ring: &[u32]) -> Self {
+        let ring = match ring {
+            [first, .., last] if first == last => &ring[1..],
+            _ => ring,
+        };
+        self.boundary.extend((0..ring.len()).map(|i| [ring[i], ring[(i + 1) % ring.len()]]));
+        self
+    }
+
+    /// Adds segments of boundaries, in any order. For [`Fill::NonZero`], their directions count.
+    #[must_use]
+    pub fn boundary(mut self, edges: &[[u32; 2]]) -> Self {
+        self.boundary.extend(edges);
+        self
+    }
+
+    /// Sets which triangles are inside the boundaries. The default is [`Fill::All`].
+    #[must_use]
+    pub fn fill(mut self, fill: Fill) -> Self {
+        self.fill = fill;
+        self
+    }
+
+    /// Puts a point where segments cross, instead of an error: the crossing, rounded to the nearest coordinates. Both
+    /// segments lead through it, and are no longer straight if it is not exactly on them. All else is exact again, but
+    /// may depend on the order of the segments. That a segment bends can make new crossings, which are split, too; where
+    /// segments are nearer to each other than coordinates are rounded, this can go on, and ends with
+    /// [`Error::CrossingConstraints`] after a hundred rounds.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use gdel::{Constraints, Triangulator};
+    ///
+    /// let points = [[0.0, 0.0], [3.0, 0.0], [3.0, 3.0], [0.0, 3.0f64]];
+    /// let constraints = Constraints::new().edges(&[[0, 2], [1, 3]]).split_crossings();
+    /// let found = Triangulator::new().constrained2d(&points, &constraints)?;
+    /// assert_eq!((found.added.as_slice(), found.moved), (&[[1.5, 1.5]][..], 0.0));
+    /// assert_eq!(found.segments, [[0, 4], [4, 2], [1, 4], [4, 3]]);
+    /// assert_eq!(found.mesh.triangles.len(), 4);
+    /// # Ok::<(), gdel::Error>(())
+    /// ```
+    #[must_use]
+    pub fn split_crossings(mut self) -> Self {
+        self.is_split = true;
+        self
+    }
+
+    /// Returns all segments: the edges, then those of boundaries.
+    pub fn segments(&self) -> Vec<[u32; 2]> {
+        [self.edges.as_slice(), &self.boundary].concat()
+    }
+
+    /// Returns whether crossings are split.
+    pub(crate) fn splits(&self) -> bool {
+        self.is_split
+    }
+
+    /// Returns the error that says which pairs of segments cross.
+    pub(crate) fn crossing_error(&self, pairs: &[[u32; 2]]) -> Error {
+        let segments = self.segments();
+        let listed = pairs.iter().take(LISTED).map(|pair| pair.map(|i| segments[i as usize])).collect();
+        Error::CrossingConstraints { count: pairs.len(), pairs: listed }
+    }
+
+    /// Checks that all ends are points.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::BadConstraint`].
+    pub(crate) fn check(&self, points: usize) -> Result<(), Error> {
+        let is_bad = |segment: &&[u32; 2]| segment.iter().any(|&v| v as usize >= points);
+        match self.edges.iter().chain(&self.boundary).find(is_bad) {
+            Some(&segment) => Err(Error::BadConstraint { segment, points }),
+            None => Ok(()),
+        }
+    }
+}
+
+/// A constrained Delaunay triangulation.
+///
+/// # Examples
+///
+/// ```
+/// use gdel::{Constraints, Triangulator};
+///
+/// let points = [[0.0, 0.0], [3.0, -1.0], [6.0, 0.0], [3.0, 1.0], [0.0, 0.0f64]];
+/// let found = Triangulator::new().constrained2d(&points, &Constraints::new().edges(&[[4, 2], [4, 0]]))?;
+/// // Point 4 is point 0.
+/// assert_eq!((found.mesh.constraints.as_slice(), found.zero_length), (&[[0, 2]][..], 1));
+/// assert!(found.mesh.is_constrained([2, 4]));
+/// assert_eq!(found.triangle_regions().iter().max(), Some(&1));
+/// assert!(gdel::verify2d(&points, &found.mesh)?.passed());
+/// # Ok::<(), gdel::Error>(())
+/// ```
+#[derive(Debug, Clone, Default)]
+#[non_exhaustive]
+pub struct Constrained2 {
+    /// The mesh, whose triangles fill the convex hull, and whose [`constraints`](Mesh2::constraints) are the
+    /// segments.
+    pub mesh: Mesh2,
+    /// Whether each triangle is inside the boundaries, as the fill rule says.
+    pub inside: Vec<bool>,
+    /// The number of segments whose ends are equal, which are ignored.
+    pub zero_length: usize,
+    /// The segments, in the order of [`Constraints::segments`], cut where a point was put at a crossing: what
+    /// [`MeshView2::segments`](crate::MeshView2::segments) takes.
+    pub segments: Vec<[u32; 2]>,
+    /// The points at crossings, if these are [split](Constraints::split_crossings): points of the mesh after the given
+    /// ones.
+    pub added: Vec<[f64; 2]>,
+    /// The greatest distance of one of these from the crossing that it was put at.
+    pub moved: f64,
+}
+
+impl Constrained2 {
+    /// Returns the triangles inside the boundaries.
+    pub fn inside_triangles(&self) -> impl Iterator<Item = [u32; 3]> + Clone + '_ {
+        self.mesh.triangles.iter().zip(&self.inside).filter(|&(_, &inside)| inside).map(|(&triangle, _)| triangle)
+    }
+
+    /// Returns the region of each triangle: two triangles are in the same one if a way from one to the other crosses
+    /// no constrained edge. Regions are numbered from 0 in the order of their first triangles.
+    pub fn triangle_regions(&self) -> Vec<u32> {
+        fill::regions(&self.mesh)
+    }
+}
+
+/// Makes a counter-clockwise Delaunay triangulation of points that of the constraints, which were
+/// [checked](Constraints::check).
+///
+/// # Errors
+///
+/// [`Unconstrained::Crossings`], or [`Error::OpenBoundary`], or [`Error::BrokenMesh`] if the mesh is not that of the
+/// points.
+pub(crate) fn constrain(
+    mut mesh: Mesh2,
+    points: Points2<'_>,
+    constraints: &Constraints,
+) -> Result<Constrained2, Unconstrained> {
+    let first_boundary = constraints.edges.len() as u32;
+    let named = |segment: &[u32; 2]| segment.map(|v| mesh.representative(v));
+    let segments: Vec<[u32; 2]> = constraints.edges.iter().chain(&constraints.boundary).map(named).collect();
+    let zero_length = segments.iter().filter(|[a, b]| a == b).count();
+    if constraints.fill != Fill::All {
+        let boundary = segments[first_boundary as usize..].iter().copied();
+        fill::check_closed(points.len(), constraints.fill, boundary)?;
+    }
+    if mesh.dimension < 2 {
+        mesh.constraints = flat::edges(&mesh.hull, points.len(), &segments);
+        return Ok(Constrained2 { mesh, zero_length, segments: constraints.segments(), ..Constrained2::default() });
+    }
+    let mut pieces = insert_all(&mut mesh, points, &segments)?;
+    parallel::sort(Threads::All, &mut pieces);
+    let weight = |&(edge, segment): &Piece| {
+        let [from, to] = segments[segment as usize].map(|v| points.get(v as usize));
+        let [low, high] = edge.map(|v| points.get(v as usize));
+        match constraints.fill {
+            _ if segment < first_boundary => 0,
+            Fill::NonZero if (from < to) != (low < high) => -1,
+            _ => 1,
+        }
+    };
+    let edges = pieces.chunk_by(|a, b| a.0 == b.0);
+    mesh.constraints = edges.clone().map(|pieces| pieces[0].0).collect();
+    let weights: Vec<fill::Weight> = edges.map(|pieces| pieces.iter().map(weight).sum()).collect();
+    let inside = fill::inside(&mesh, constraints.fill, &weights);
+    let segments = constraints.segments();
+    Ok(Constrained2 { mesh, inside, zero_length, segments, ..Constrained2::default() })
+}
+
+/// Why a mesh is not that of the constraints.
+pub(crate) enum Unconstrained {
+    Error(Error),
+    /// The pairs of segments that cross.
+    Crossings(Vec<[u32; 2]>),
+}
+
+impl From<Error> for Unconstrained {
+    fn from(error: Error) -> Self {
+        Unconstrained::Error(error)
+    }
+}
+
+/// A constrained edge, the lower vertex first, and the segment that it is a piece of.
+type Piece = ([u32; 2], u32);
+
+/// Inserts the segments between vertices. Returns their pieces.
+///
+/// # Errors
+///
+/// [`Unconstrained::Crossings`] or [`Error::BrokenMesh`].
+fn insert_all(mesh: &mut Mesh2, points: Points2<'_>, segments: &[[u32; 2]]) -> Result<Vec<Piece>, Unconstrained> {
+    let mut marked = Marked::new(mesh, points);
+    let proper = (0..).zip(segments).filter(|(_, [a, b])| a != b);
+    // In the order of the triangles, which are near each other in memory if they are near each other.
+    let start = |v: u32| marked.start(v);
+    let mut keyed: Vec<u64> = proper.clone().map(|(i, &[a, b])| u64::from(start(a).min(start(b))) << 32 | i).collect();
+    parallel::sort_keyed(Threads::All, &mut keyed);
+    let near = keyed.into_iter().map(|key| key as u32);
+    let lost = |_: Lost| Error::BrokenMesh { reason: "a segment leads nowhere" };
+    let mut inserted = insert_in_order(&mut marked, segments, near).map_err(lost)?;
+    if !inserted.crossings.is_empty() {
+        // Which ones cross those before them depends on the order: in that of the input, anew.
+        marked.unmark_all();
+        marked.flip_pending();
+        inserted = insert_in_order(&mut marked, segments, proper.map(|(i, _)| i as u32)).map_err(lost)?;
+        return Err(Unconstrained::Crossings(crossings(inserted)));
+    }
+    marked.restore(mesh);
+    Ok(inserted.pieces)
+}
+
+fn insert_in_order(
+    marked: &mut Marked<'_>,
+    segments: &[[u32; 2]],
+    order: impl Iterator<Item = u32>,
+) -> Result<Inserted, Lost> {
+    let mut inserter = Inserter::new(marked);
+    for i in order {
+        inserter.insert(i, segments[i as usize])?;
+    }
+    Ok(inserter.finish())
+}
+
+/// Returns which segments cross, in the order of the input.
+fn crossings(Inserted { mut pieces, crossings }: Inserted) -> Vec<[u32; 2]> {
+    pieces.sort_unstable();
+    let mut pairs: Vec<[u32; 2]> = Vec::new();
+    for (edge, segment) in crossings {
+        let first = pieces.partition_point(|piece| piece.0 < edge);
+        let same = pieces[first..].iter().take_while(|piece| piece.0 == edge);
+        pairs.extend(same.map(|&(_, before)| [before.min(segment), before.max(segment)]));
+    }
+    pairs.sort_unstable();
+    pairs.dedup();
+    pairs
+}
