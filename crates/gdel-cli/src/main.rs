@@ -3,6 +3,7 @@
 
 mod adapters;
 mod alpha;
+mod constrain;
 mod contour;
 #[cfg(feature = "decimate")]
 mod decimate;

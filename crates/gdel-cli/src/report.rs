@@ -26,6 +26,9 @@ pub(super) struct Report<'a> {
     /// The numbers of simplices and their faces.
     #[serde(flatten)]
     counts: Counts,
+    /// What became of segments, where there are any.
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    pub(super) constraints: Option<ConstraintCounts>,
     /// Whether the mesh was proven to be the triangulation that it should be, where that was requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     verified: Option<bool>,
@@ -40,6 +43,33 @@ pub(super) struct Report<'a> {
     gpu: Option<&'a GpuStats>,
     #[serde(skip_serializing_if = "Option::is_none")]
     splay: Option<&'a SplayStats>,
+}
+
+/// What became of segments.
+#[derive(Clone, Copy, Serialize)]
+pub(super) struct ConstraintCounts {
+    pub(super) segments: usize,
+    /// Segments that are ignored, since their ends are equal.
+    pub(super) zero_length: usize,
+    pub(super) constrained_edges: usize,
+    pub(super) inside_triangles: usize,
+    /// Points that were put at crossings.
+    pub(super) added_points: usize,
+    /// The greatest distance of one of these from its crossing.
+    pub(super) moved: f64,
+}
+
+impl fmt::Display for ConstraintCounts {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "constraints     {} edges of {} segments", self.constrained_edges, self.segments)?;
+        if self.zero_length > 0 {
+            write!(f, ", {} of them without a length", self.zero_length)?;
+        }
+        if self.added_points > 0 {
+            write!(f, ", {} points at crossings, up to {:e} from them", self.added_points, self.moved)?;
+        }
+        writeln!(f, "\ninside          {} triangles", self.inside_triangles)
+    }
 }
 
 /// Without reading and writing files.
@@ -75,6 +105,7 @@ impl<'a> Report<'a> {
             hidden: mesh.hidden_count(),
             dimension: mesh.dimension(),
             counts: mesh.counts(),
+            constraints: None,
             verified,
             backend: stats.backend,
             fallback: stats.fallback.as_ref(),
@@ -113,6 +144,9 @@ impl fmt::Display for Report<'_> {
                 writeln!(f, "triangles       {triangles}\nhull edges      {hull_edges}")?;
             }
         }
+        if let Some(constraints) = self.constraints {
+            write!(f, "{constraints}")?;
+        }
         write!(f, "seconds         {:.3} ({}", self.seconds.total.as_secs_f64(), self.backend)?;
         if let Some(why) = &self.fallback {
             write!(f, ", since {why}")?;
@@ -121,7 +155,11 @@ impl fmt::Display for Report<'_> {
             write!(f, ", {phase} {:.3}", time.as_secs_f64())?;
         }
         write!(f, ")")?;
-        let kind = if self.hidden.is_some() { "regular" } else { "Delaunay" };
+        let kind = match (self.hidden, self.constraints) {
+            (Some(_), _) => "regular",
+            (None, Some(_)) => "constrained Delaunay",
+            (None, None) => "Delaunay",
+        };
         match self.verified {
             Some(true) => write!(f, "\nverified        this is the {kind} triangulation"),
             Some(false) => write!(f, "\nverified        NOT the {kind} triangulation"),

@@ -1,14 +1,15 @@
 //! `gdel triangulate`: a point cloud in, its Delaunay triangulation out, or the regular one of weighted points.
 
 use super::{
+    constrain,
     dimension::{Dimension, Rescale, Triangulation, format_parser, in_dimension, read},
     failure::Failure,
     progress::Progress,
     report::Report,
     verify,
 };
-use clap::{Args, ValueEnum};
-use gdel::{Backend, Mesh3, Points, Triangulator, internals::cpu::weights_of_radii};
+use clap::{Args, ValueEnum, error::ErrorKind};
+use gdel::{Backend, Constrained2, Mesh3, Points, Triangulator, internals::cpu::weights_of_radii};
 use gdel_io::{
     PointCloud, PointFormat,
     files::{Input, Output},
@@ -59,6 +60,17 @@ pub(super) struct Arguments {
     /// The same with the squares of a column of radii for weights
     #[arg(long, value_name = "COLUMN", conflicts_with_all = ["rescale", "sphere"])]
     radii: Option<String>,
+    /// Make these segments edges: a text file with the indices of two points on each line, counted from 0. The rest is
+    /// as Delaunay as they allow. Needs --dim 2
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["rescale", "sphere", "weights", "radii"])]
+    edges: Option<PathBuf>,
+    /// Take the segments as boundaries, outer ones and those of holes, and write the triangles inside
+    #[arg(long, value_enum, default_value_t = constrain::FillRule::All, requires = "edges")]
+    fill: constrain::FillRule,
+    /// Put a point where segments cross, rounded to the nearest coordinates, instead of an error. Such points are
+    /// written after those of the input
+    #[arg(long, requires = "edges")]
+    split: bool,
     /// Where to compute; the mesh is the same everywhere
     #[arg(long, value_enum, default_value_t = BackendName::Auto)]
     backend: BackendName,
@@ -74,6 +86,17 @@ pub(super) struct Arguments {
     /// Prove that the result is the triangulation that it should be; with --repeat, the last one
     #[arg(long)]
     verify: bool,
+}
+
+impl Arguments {
+    /// Creates the triangulator: one device for all runs.
+    fn triangulator(&self) -> Triangulator {
+        let triangulator = Triangulator::new().backend(self.backend.into());
+        match self.threads {
+            Some(threads) => triangulator.threads(threads),
+            None => triangulator,
+        }
+    }
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -110,6 +133,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.sphere {
         return triangulate_sphere(arguments);
     }
+    if let Some(edges) = &arguments.edges {
+        return triangulate_constrained(arguments, edges);
+    }
     in_dimension!(arguments.dim, run_in, arguments)
 }
 
@@ -119,6 +145,51 @@ fn triangulate_sphere(arguments: &Arguments) -> Result<(), Failure> {
     let points = gdel::on_sphere(&cloud).map_err(failure)?;
     let cloud = cloud.with_points(points);
     run_with::<Mesh3, 3, 4>(arguments, &Read { input, cloud, weights: None })
+}
+
+fn triangulate_constrained(arguments: &Arguments, edges: &Path) -> Result<(), Failure> {
+    if arguments.dim != Dimension::Two {
+        return Err(Failure::Usage(ErrorKind::MissingRequiredArgument, "--edges needs --dim 2".into()));
+    }
+    arguments.outputs.iter().try_for_each(|output| output.check(&[edges], arguments.force))?;
+    let Read { input, cloud, .. } = read_input::<2>(arguments)?;
+    let constraints = constrain::read_constraints(edges, arguments.fill, arguments.split)?;
+    let points = Points::from(&cloud);
+    let failure = |source| {
+        let path = if constrain::is_of_segments(&source) { edges } else { input.path() };
+        Failure::Points { path: path.into(), source }
+    };
+    let report = |found: &Constrained2, total, verified| {
+        let mut report = Report::new(&cloud, &found.mesh, total, verified);
+        report.constraints = Some(constrain::counts(&constraints, found));
+        print(arguments.stats, &report)
+    };
+    let triangulator = arguments.triangulator();
+    let triangulate = || timed(&triangulator, |triangulator| triangulator.constrained2d(points, &constraints));
+    // Each run gives its memory back before the next.
+    for _ in 1..arguments.repeat.get() {
+        let (found, total) = triangulate().map_err(failure)?;
+        if !report(&found, total, None)? {
+            break;
+        }
+    }
+    let (found, total) = triangulate().map_err(failure)?;
+    let all: Vec<[f64; 2]>;
+    let points = if found.added.is_empty() {
+        points
+    } else {
+        all = points.iter().chain(found.added.iter().copied()).collect();
+        Points::F64(&all)
+    };
+    let proof = arguments.verify.then(|| verify::proof(|| constrain::prove(points, &found))).transpose();
+    let proof = proof.map_err(failure)?;
+    report(&found, total, proof.as_ref().map(gdel::verify::Report::passed))?;
+    if let Some(proof) = &proof {
+        verify::conclude(input.path(), proof)?;
+    }
+    let _progress = Progress::new("writing");
+    let mesh = constrain::inside(found);
+    Ok(arguments.outputs.iter().try_for_each(|output| output.write(points, &mesh))?)
 }
 
 fn run_in<M: Triangulation<D, N>, const D: usize, const N: usize>(arguments: &Arguments) -> Result<(), Failure> {
@@ -159,11 +230,7 @@ fn run_with<M: Triangulation<D, N>, const D: usize, const N: usize>(
     let (points, weights) = (scaled.as_ref().map_or(given, |scaled| Points::F64(scaled)), weights.as_deref());
     let failure = |source| Failure::Points { path: input.path().into(), source };
     let report = |mesh: &M, total, verified| print(arguments.stats, &Report::new(cloud, mesh, total, verified));
-    // One device for all runs.
-    let mut triangulator = Triangulator::new().backend(arguments.backend.into());
-    if let Some(threads) = arguments.threads {
-        triangulator = triangulator.threads(threads);
-    }
+    let triangulator = arguments.triangulator();
     // Each run gives its memory back before the next.
     for _ in 1..arguments.repeat.get() {
         let (mesh, total) = triangulate::<M, D, N>(points, weights, &triangulator).map_err(failure)?;
@@ -191,6 +258,14 @@ pub(super) fn triangulate<M: Triangulation<D, N>, const D: usize, const N: usize
     weights: Option<&[f64]>,
     triangulator: &Triangulator,
 ) -> Result<(M, Duration), gdel::Error> {
+    timed(triangulator, |triangulator| M::triangulate(points, weights, triangulator))
+}
+
+/// Calls `run` with a triangulator that shows its progress, and measures how long that takes.
+fn timed<M>(
+    triangulator: &Triangulator,
+    run: impl FnOnce(&Triangulator) -> Result<M, gdel::Error>,
+) -> Result<(M, Duration), gdel::Error> {
     let progress = Progress::new("triangulating");
     let show = progress.reporter();
     let triangulator = triangulator.clone().on_progress(move |progress| {
@@ -198,7 +273,7 @@ pub(super) fn triangulate<M: Triangulation<D, N>, const D: usize, const N: usize
         ControlFlow::Continue(())
     });
     let start = Instant::now();
-    let mesh = M::triangulate(points, weights, &triangulator)?;
+    let mesh = run(&triangulator)?;
     Ok((mesh, start.elapsed()))
 }
 

@@ -176,6 +176,15 @@ pub fn read_points(path: &Path) -> Result<PointCloud, FileError> {
     Input::new(path, None)?.read()
 }
 
+/// Reads edges between points: see [`read_edges`](crate::read_edges()).
+///
+/// # Errors
+///
+/// Returns [`FileError::Read`] or [`FileError::Format`].
+pub fn read_edges(path: &Path) -> Result<Vec<[u32; 2]>, FileError> {
+    crate::read_edges(&read(path)?).map_err(|source| FileError::Format { path: path.into(), source })
+}
+
 /// Reads a mesh; the extension says in which format. For any of the three files of TetGen or
 /// Triangle the `.ele` is read, and the `.neigh` and `.node` beside it if there are any.
 ///

@@ -12,6 +12,7 @@
 mod archive;
 mod colors;
 mod e57;
+mod edges;
 mod error;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod files;
@@ -39,6 +40,7 @@ mod three_mf;
 mod vtu;
 
 pub use colors::{ColorSource, PointColors};
+pub use edges::read_edges;
 pub use error::{FormatError, Position, printable};
 pub use format::{MeshFormat, PointFormat, SurfaceFormat, TableFormat};
 pub use las::panics_are_caught;

@@ -1,5 +1,6 @@
 //! The command `gdel` as its users meet it.
 
+mod constrain;
 mod derived;
 mod inputs;
 mod outputs;
