@@ -190,7 +190,7 @@ pub enum Error {
         /// The index of the first point with such a radius.
         index: usize,
     },
-    /// What was asked for exists for Delaunay triangulations only so far, and the mesh is one of weighted points.
+    /// What was asked for exists for Delaunay triangulations only, and the mesh is one of weighted points.
     #[error("this is not possible with a mesh of weighted points")]
     WeightedMesh,
     /// What was asked for does not exist for meshes with constraints so far, and the mesh has some.

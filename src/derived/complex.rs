@@ -4,7 +4,7 @@ use crate::{
     error::Error,
     index::NONE,
     input::points::Points,
-    mesh::Mesh,
+    mesh::{Mesh, hidden},
     parallel::{self, Threads},
 };
 use std::borrow::Cow;
@@ -18,7 +18,10 @@ pub struct Complex<'a, const D: usize, const N: usize> {
     pub(crate) simplices: Cow<'a, [[u32; N]]>,
     /// Entry *k* is opposite vertex *k*, in 2D too.
     pub(crate) neighbors: Cow<'a, [[u32; N]]>,
+    /// For hidden points, these themselves, as for those that were removed.
     pub(crate) duplicate_of: Cow<'a, [u32]>,
+    /// The weights of the points; none if the mesh is the Delaunay triangulation.
+    pub(crate) weights: Cow<'a, [f64]>,
 }
 
 /// The coordinates of a mesh's points.
@@ -29,26 +32,39 @@ pub(crate) enum Coordinates<'a, const D: usize> {
 }
 
 impl<'a, const D: usize, const N: usize> Complex<'a, D, N> {
+    /// Checks and borrows a mesh and its points, for what exists for Delaunay triangulations only.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`new`](Self::new), and [`Error::WeightedMesh`].
+    pub(crate) fn unweighted(mesh: &'a impl Mesh<D, N>, points: Points<'a, D>) -> Result<Self, Error> {
+        let complex = Complex::new(mesh, points)?;
+        if complex.weights.is_empty() { Ok(complex) } else { Err(Error::WeightedMesh) }
+    }
+
     /// Checks and borrows a mesh and its points.
     ///
     /// # Errors
     ///
-    /// [`Error::PointCount`], [`Error::NotFinite`], [`Error::BrokenMesh`], [`Error::WeightedMesh`], or
+    /// [`Error::PointCount`], [`Error::NotFinite`], [`Error::BrokenMesh`], [`Error::BadWeight`], or
     /// [`Error::ConstrainedMesh`].
     pub(crate) fn new(mesh: &'a impl Mesh<D, N>, points: Points<'a, D>) -> Result<Self, Error> {
         let (simplices, neighbors, duplicate_of) = (mesh.simplices(), mesh.opposites(), mesh.duplicate_of());
         if points.len() != duplicate_of.len() {
             return Err(Error::PointCount { points: points.len(), expected: duplicate_of.len() });
         }
-        // All that is derived so far is derived from Delaunay triangulations.
-        if !mesh.weights().is_empty() {
-            return Err(Error::WeightedMesh);
+        let weights = mesh.weights();
+        if let Some(index) = weights.iter().position(|w| !w.is_finite()) {
+            return Err(Error::BadWeight { index });
         }
         if mesh.has_constraints() {
             return Err(Error::ConstrainedMesh);
         }
         points.validate_by(Threads::All)?;
         let broken = |reason| Err(Error::BrokenMesh { reason });
+        if !weights.is_empty() && weights.len() != points.len() {
+            return broken("there is not one weight per point");
+        }
         if neighbors.len() != simplices.len() || simplices.len() > i32::MAX as usize {
             return broken("there are not as many neighbours as simplices");
         }
@@ -65,8 +81,26 @@ impl<'a, const D: usize, const N: usize> Complex<'a, D, N> {
         if !duplicate_of.iter().all(|&i| is_index(i, points.len())) {
             return broken("a duplicate is that of a point that does not exist");
         }
+        let points = Coordinates::Borrowed(points);
         let (simplices, duplicate_of) = (Cow::Borrowed(simplices), Cow::Borrowed(duplicate_of));
-        Ok(Complex { points: Coordinates::Borrowed(points), simplices, neighbors, duplicate_of })
+        let mut complex = Complex { points, simplices, neighbors, duplicate_of, weights: Cow::Borrowed(weights) };
+        if !weights.is_empty() && !complex.simplices.is_empty() {
+            complex.hide(hidden(&complex.simplices, &complex.duplicate_of));
+        }
+        Ok(complex)
+    }
+
+    /// Takes points for hidden ones.
+    pub(crate) fn hide(&mut self, points: Vec<u32>) {
+        for i in points {
+            self.duplicate_of.to_mut()[i as usize] = i;
+        }
+    }
+
+    /// Returns the weight of vertex `v`, 0 without weights.
+    #[inline(always)]
+    pub(crate) fn weight(&self, v: u32) -> f64 {
+        self.weights.get(v as usize).copied().unwrap_or(0.0)
     }
 
     /// Returns the points.
@@ -141,7 +175,7 @@ impl<'a, const D: usize, const N: usize> Complex<'a, D, N> {
         facet
     }
 
-    /// Returns the points that are not duplicates of others.
+    /// Returns the points that are neither duplicates of others nor hidden.
     pub(crate) fn vertices(&self) -> impl Iterator<Item = u32> + '_ {
         (0..).zip(&*self.duplicate_of).filter(|&(_, &of)| of == NONE).map(|(i, _)| i)
     }

@@ -74,7 +74,7 @@ where
     /// [`Error::ValueCount`] if there are not as many values as points; [`Error::PointCount`],
     /// [`Error::NotFinite`] or [`Error::BrokenMesh`] as for [`Locator::new`](crate::Locator::new).
     pub fn new(mesh: &'a impl Mesh<D, N>, points: impl Into<Points<'a, D>>, values: &'a [f64]) -> Result<Self, Error> {
-        let complex = Complex::new(mesh, points.into())?;
+        let complex = Complex::unweighted(mesh, points.into())?;
         if values.len() != complex.points().len() {
             return Err(Error::ValueCount { values: values.len(), points: complex.points().len() });
         }

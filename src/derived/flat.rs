@@ -1,22 +1,22 @@
 //! Points in a plane, on a line or in one place, in their own dimension.
 //!
-//! Which points have an edge is exact. On a line it is the order of a coordinate. A plane that is
-//! perpendicular to an axis is projected along it, which changes no distance. In any other plane the
-//! edges are those of the tetrahedra of the points and one more point beside the plane: their spheres
-//! cut the circles of the triangles out of the plane. Projected along an axis, such a plane keeps its lines
-//! and what is on which side of them; what is measured in it needs coordinates that are rounded.
+//! Which points have an edge is exact. On a line it is the order of a coordinate. A plane that is perpendicular to an
+//! axis is projected along it, which changes no distance. In any other plane the edges are those of the tetrahedra of
+//! the points and one more point beside the plane: their spheres cut the circles of the triangles out of the plane. So
+//! do the spheres of weighted points. Projected along an axis, such a plane keeps its lines and what is on which side
+//! of them; what is measured in it needs coordinates that are rounded.
 
 use super::complex::Complex;
 use crate::{
-    cpu::{self, Incremental},
+    cpu::{self, Incremental, MeshOf},
     d2::Mesh2,
     d3::Mesh3,
     dimension::Dimension,
     error::Error,
-    geometry::{facet, vector},
+    geometry::{below_on_line, facet, vector},
     index::NONE,
     input::points::Points,
-    mesh::Csr,
+    mesh::{Csr, MeshInfo},
     options::Options,
 };
 use rustc_hash::FxHashMap;
@@ -27,6 +27,8 @@ pub struct Flat {
     /// The vertices that each point has an edge to.
     pub(super) neighbors: Csr,
     pub(super) shape: Shape,
+    /// The hidden points of weighted ones. The lists of vertices have those of a plane, too.
+    pub(super) hidden: Vec<u32>,
 }
 
 /// What the vertices are in.
@@ -124,17 +126,24 @@ impl Flat {
         if usize::from(dimension) >= D {
             return Ok(None);
         }
-        let mut edges = Vec::new();
+        let weight = |v: u32| complex.weight(v);
+        let (mut edges, mut hidden) = (Vec::new(), Vec::new());
         let shape = if dimension < 2 {
             // Distinct points of a line differ in each coordinate in which any two of them do.
             let last = points[points.len() - 1];
             let axis = (0..3).find(|&axis| first[axis] != last[axis]).unwrap_or(0);
             order.sort_unstable_by(|&i, &j| points[i as usize][axis].total_cmp(&points[j as usize][axis]));
-            let vertices: Vec<u32> = order.iter().map(|&i| vertices[i as usize]).collect();
+            let mut vertices: Vec<u32> = order.iter().map(|&i| vertices[i as usize]).collect();
+            if !complex.weights.is_empty() {
+                (vertices, hidden) = lower_chain(&vertices, |v| (in_space(complex.point(v)), weight(v)), axis);
+            }
             edges.extend(vertices.windows(2).map(|pair| [pair[0], pair[1]]));
             Shape::Line { vertices, axis }
         } else {
-            let plane = Plane::new(vertices, &points, &order)?;
+            let weights =
+                if complex.weights.is_empty() { Vec::new() } else { vertices.iter().copied().map(weight).collect() };
+            let plane = Plane::new(vertices, &points, &weights, &order)?;
+            hidden.extend(plane.mesh.hidden.iter().map(|&i| plane.vertices[i as usize]));
             edges.extend(plane.triangles().flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]]));
             Shape::Plane(Box::new(plane))
         };
@@ -148,7 +157,7 @@ impl Flat {
             neighbors.push(own.iter().map(|&[_, to]| to));
             rest = others;
         }
-        Ok(Some(Flat { neighbors, shape }))
+        Ok(Some(Flat { neighbors, shape, hidden }))
     }
 
     /// Returns a vertex to start from on the way to the one nearest to a point.
@@ -158,7 +167,7 @@ impl Flat {
                 let after = vertices.partition_point(|&v| in_space(complex.point(v))[*axis] < in_space(query)[*axis]);
                 vertices[after.min(vertices.len() - 1)]
             }
-            Shape::Plane(plane) => plane.vertices[0],
+            Shape::Plane(plane) => plane.triangles().next().map_or(plane.vertices[0], |[v, ..]| v),
         }
     }
 
@@ -171,7 +180,7 @@ impl Flat {
 
 impl Plane {
     /// Triangulates points of a plane, of which the first three in `order` are not on a line.
-    fn new(vertices: Vec<u32>, points: &[[f64; 3]], order: &[u32]) -> Result<Self, Error> {
+    fn new(vertices: Vec<u32>, points: &[[f64; 3]], weights: &[f64], order: &[u32]) -> Result<Self, Error> {
         let first = points[0];
         let is_aligned = |&axis: &usize| points.iter().all(|p| p[axis] == first[axis]);
         let aligned = (0..3).find(is_aligned);
@@ -183,8 +192,8 @@ impl Plane {
         let project = |frame: Frame| points.iter().map(|&p| frame.project(p)).collect::<Vec<_>>();
         let (in_plane, shadows) = (project(frame), project(shadow));
         let mesh = match aligned {
-            Some(_) => cpu::delaunay(Points::F64(&shadows), &Options::default())?,
-            None => mesh_of(base_of_cone(points, axis)?, points.len()),
+            Some(_) => triangulate(&shadows, weights)?,
+            None => mesh_of(base_of_cone(points, weights, axis)?, points.len(), weights),
         };
         Ok(Plane { frame, vertices, points: in_plane, shadow, shadows, mesh })
     }
@@ -195,16 +204,58 @@ impl Plane {
     }
 }
 
+/// Returns the Delaunay triangulation of points, or the regular one if they have weights.
+///
+/// # Errors
+///
+/// [`Error::OutOfMemory`].
+pub(super) fn triangulate<const D: usize>(points: &[[f64; D]], weights: &[f64]) -> Result<MeshOf<D>, Error>
+where
+    Dimension<D>: Incremental<D>,
+{
+    let options = Options::default();
+    match weights {
+        [] => cpu::delaunay(Points::F64(points), &options),
+        _ => cpu::regular(Points::F64(points), weights, &options),
+    }
+}
+
+/// Returns those of some weighted points of a line, given in the order of their coordinate along an axis, that are
+/// vertices of the regular triangulation, and the hidden ones.
+fn lower_chain(points: &[u32], at: impl Fn(u32) -> ([f64; 3], f64), axis: usize) -> (Vec<u32>, Vec<u32>) {
+    let (mut chain, mut hidden) = (Vec::new(), Vec::new());
+    let is_hidden = |[a, b, c]: [u32; 3]| {
+        let all = [a, b, c].map(&at);
+        match below_on_line(all.map(|(p, _)| p), all.map(|(_, weight)| weight), axis) {
+            // Points of a lower index are raised more.
+            0 => b < a.min(c),
+            sign => sign < 0,
+        }
+    };
+    for &c in points {
+        while let &[.., a, b] = &chain[..]
+            && is_hidden([a, b, c])
+        {
+            chain.pop();
+            hidden.push(b);
+        }
+        chain.push(c);
+    }
+    (chain, hidden)
+}
+
 /// Returns the Delaunay triangles of points of a plane that is no less steep along another axis than along
 /// this one. They are counter-clockwise as seen from where the axis points.
-fn base_of_cone(points: &[[f64; 3]], axis: usize) -> Result<Vec<[u32; 3]>, Error> {
+fn base_of_cone(points: &[[f64; 3]], weights: &[f64], axis: usize) -> Result<Vec<[u32; 3]>, Error> {
     let first = points[0];
     let reach = points.iter().map(|p| (p[axis] - first[axis]).abs()).fold(0.0, f64::max).min(f64::MAX);
     let is_below = first[axis] > 0.0;
     let mut apex = first;
     apex[axis] += if is_below { -reach } else { reach };
     let with_apex: Vec<[f64; 3]> = points.iter().copied().chain([apex]).collect();
-    let cone: Mesh3 = cpu::delaunay(Points::F64(&with_apex), &Options::default())?;
+    // Which weight the apex has does not matter: it is a vertex, and not of the base.
+    let with_its: Vec<f64> = weights.iter().chain(weights.first()).copied().collect();
+    let cone: Mesh3 = triangulate(&with_apex, &with_its)?;
     let top = points.len() as u32;
     // The facets opposite the apex are counter-clockwise as seen from the other side.
     let base = |tetrahedron: &[u32; 4]| {
@@ -216,7 +267,7 @@ fn base_of_cone(points: &[[f64; 3]], axis: usize) -> Result<Vec<[u32; 3]>, Error
 }
 
 /// Returns triangles of so many vertices with their neighbours.
-fn mesh_of(triangles: Vec<[u32; 3]>, points: usize) -> Mesh2 {
+fn mesh_of(triangles: Vec<[u32; 3]>, points: usize, weights: &[f64]) -> Mesh2 {
     let edges = triangles
         .iter()
         .enumerate()
@@ -224,7 +275,11 @@ fn mesh_of(triangles: Vec<[u32; 3]>, points: usize) -> Mesh2 {
     let halfedge_of: FxHashMap<[u32; 2], u32> = edges.collect();
     let across = |from, to| halfedge_of.get(&[to, from]).copied().unwrap_or(NONE);
     let halfedges = triangles.iter().map(|&[a, b, c]| [across(a, b), across(b, c), across(c, a)]).collect();
-    Mesh2 { triangles, halfedges, dimension: 2, duplicate_of: vec![NONE; points], ..Mesh2::default() }
+    let mut mesh = Mesh2 { triangles, halfedges, dimension: 2, duplicate_of: vec![NONE; points], ..Mesh2::default() };
+    if !weights.is_empty() {
+        mesh.set_weights(weights);
+    }
+    mesh
 }
 
 /// Returns the frame of a plane that is not perpendicular to an axis, and the axis that is farthest from it,

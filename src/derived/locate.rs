@@ -78,6 +78,9 @@ impl Location {
 /// of it; 2⁻²¹ if the points or the queries are in single precision). [`exact`](Self::exact) gives
 /// that up. Whether the box meets the hull is decided exactly.
 ///
+/// In a mesh of [weighted](crate::Triangulator::regular3d) points, the nearest vertices are those with the least power
+/// distance, |x − p|² − *w*, which may be negative. Hidden points are never nearest.
+///
 #[cfg_attr(doc, doc = concat!("<div>\n", include_str!("../../docs/answers/locate.svg"), "</div>"))]
 ///
 /// # Examples
@@ -143,13 +146,19 @@ where
     /// # Errors
     ///
     /// [`Error::PointCount`] if these are not the points of the mesh, [`Error::NotFinite`] if one
-    /// of them is not finite, [`Error::BrokenMesh`] if the mesh's arrays contradict each other, and
-    /// [`Error::WeightedMesh`] if its points are weighted.
+    /// of them is not finite, [`Error::BadWeight`] if a weight is not, and [`Error::BrokenMesh`] if the
+    /// mesh's arrays contradict each other.
     pub fn new(mesh: &'a impl Mesh<D, N>, points: impl Into<Points<'a, D>>) -> Result<Self, Error> {
-        Complex::new(mesh, points.into()).and_then(Locator::of)
+        let mut complex = Complex::new(mesh, points.into())?;
+        let mut flat = Flat::new(&complex)?;
+        if let Some(flat) = &mut flat {
+            complex.hide(std::mem::take(&mut flat.hidden));
+        }
+        Ok(Locator::of(complex, flat))
     }
 
-    pub(super) fn of(complex: Complex<'a, D, N>) -> Result<Self, Error> {
+    /// Creates a locator for a mesh whose points are flat in this way, if they are.
+    pub(super) fn of(complex: Complex<'a, D, N>, flat: Option<Flat>) -> Self {
         let bounds = complex.bounds();
         let key = CurveKey::new(bounds);
         let start = |(t, simplex): (usize, &[u32; N])| {
@@ -160,9 +169,8 @@ where
         starts.sort_unstable();
         let orientation_bound = orientation_bound(bounds);
         let scale = vector::scale_of(bounds);
-        let flat = Flat::new(&complex)?;
         let neighbors = OnceLock::new();
-        Ok(Locator { complex, bounds, orientation_bound, scale, key, starts, neighbors, flat, is_exact: false })
+        Locator { complex, bounds, orientation_bound, scale, key, starts, neighbors, flat, is_exact: false }
     }
 
     /// Returns the locator without a tolerance: queries outside the hull count as such, however near
@@ -196,7 +204,7 @@ where
     /// # Errors
     ///
     /// [`Error::NotFinite`], or [`Error::BrokenMesh`] if the walk does not end because the mesh is
-    /// not the Delaunay triangulation of the points.
+    /// not the Delaunay or regular triangulation of the points.
     pub fn locate(&self, query: [f64; D]) -> Result<Location, Error> {
         Points::F64(&[query]).validate()?;
         let reach = self.reach(Points::F64(&[]));

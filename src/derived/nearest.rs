@@ -5,14 +5,16 @@
 //! ball around the point that has the vertex on its boundary towards the vertex until its inside is
 //! empty: all other vertices on the boundary of what is left are nearer, and the vertex has an edge
 //! to one of them.) So no location is needed first.
+//!
+//! The same holds for power distances and regular triangulations: these are the lower sides of convex hulls, on which a
+//! power distance is a linear function and the walk is that of the simplex method.
 
 use super::{Locator, queries::map_along_curve};
 use crate::{
     error::Error,
-    geometry::{Euclidean, Geometry, certain_difference, compare_distances, vector},
+    geometry::{Euclidean, Geometry, Power},
     input::points::Points,
     mesh::Csr,
-    predicates::Sign,
 };
 use rustc_hash::FxHashSet;
 use std::{cmp::Ordering, collections::BinaryHeap};
@@ -23,11 +25,23 @@ where
 {
     /// Returns the vertex that is nearest to a point, inside the hull or outside; `None` if there are no
     /// points. Of several vertices at the same distance it is the one with the
-    /// lowest index.
+    /// lowest index. With weights, the distance is the power distance.
     ///
     /// # Errors
     ///
     /// [`Error::NotFinite`].
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// let points = [[0.0, 0.0], [4.0, 0.0], [0.0, 4.0], [1.0, 1.0f64]];
+    /// let mesh = gdel::Triangulator::new().regular2d(&points, &[9.0, 0.0, 0.0, 1.0])?;
+    /// let locator = gdel::Locator::new(&mesh, &points)?;
+    /// // The ball around the first point has the largest radius.
+    /// assert_eq!(locator.nearest([1.0, 1.0])?, Some(0));
+    /// assert_eq!(locator.nearest([3.25, 0.0])?, Some(1));
+    /// # Ok::<(), gdel::Error>(())
+    /// ```
     pub fn nearest(&self, query: [f64; D]) -> Result<Option<u32>, Error> {
         Points::F64(&[query]).validate()?;
         let start = self.start_vertex(query);
@@ -85,10 +99,7 @@ where
         let mut found = Vec::new();
         let Some(first) = self.nearest(query)?.filter(|_| k > 0) else { return Ok(found) };
         let neighbors = self.vertex_neighbors();
-        let candidate = |vertex: u32| {
-            let point = self.complex.point(vertex);
-            Candidate { query, point, squared: vector::squared_norm(vector::minus(query, point)), vertex }
-        };
+        let candidate = |vertex: u32| Candidate { query, power: self.power(query, vertex), vertex };
         let nearest = self.all_nearest(neighbors, query, first);
         let mut candidates: BinaryHeap<_> = nearest.iter().map(|&v| candidate(v)).collect();
         let mut seen = FxHashSet::from_iter(nearest);
@@ -108,6 +119,12 @@ where
         self.start(query).map(|start| self.complex.simplices[start][0]).or_else(flat)
     }
 
+    /// Returns the power distance of a vertex, its squared distance without weights.
+    #[inline(always)]
+    fn power(&self, query: [f64; D], v: u32) -> Power<D> {
+        Power::new(query, self.complex.point(v), self.complex.weight(v))
+    }
+
     /// Returns the neighbours of each vertex.
     pub(super) fn vertex_neighbors(&self) -> &Csr {
         if let Some(flat) = &self.flat {
@@ -118,23 +135,16 @@ where
 
     /// Walks from a vertex to the one nearest to a query.
     pub(super) fn nearest_from(&self, neighbors: &Csr, query: [f64; D], start: u32) -> u32 {
-        let squared = |p: [f64; D]| vector::squared_norm(vector::minus(query, p));
-        let mut best = start;
-        let mut best_point = self.complex.point(start);
-        let mut best_squared = squared(best_point);
+        let (mut best, mut least) = (start, self.power(query, start));
         loop {
             let at = best;
             let mut is_tied = false;
             for &v in neighbors.of(at) {
-                let point = self.complex.point(v);
-                let distance = squared(point);
-                let order = match certain_difference(distance, best_squared) {
-                    0 => compare_distances(query, point, best_point),
-                    order => order,
-                };
+                let power = self.power(query, v);
+                let order = power.compare(&least, query);
                 is_tied |= order == 0;
                 if order < 0 {
-                    (best, best_point, best_squared) = (v, point, distance);
+                    (best, least) = (v, power);
                     is_tied = false;
                 }
             }
@@ -147,15 +157,15 @@ where
 
     /// Returns all vertices that are as near to a query as `v`, which is nearest.
     #[inline(never)]
-    fn all_nearest(&self, neighbors: &Csr, query: [f64; D], v: u32) -> Vec<u32> {
-        let point = self.complex.point(v);
+    pub(super) fn all_nearest(&self, neighbors: &Csr, query: [f64; D], v: u32) -> Vec<u32> {
+        let least = self.power(query, v);
         let mut tied = vec![v];
         let mut seen = FxHashSet::from_iter([v]);
         let mut next = 0;
         while let Some(&v) = tied.get(next) {
             next += 1;
             for &w in neighbors.of(v) {
-                if compare_distances(query, self.complex.point(w), point) == 0 && seen.insert(w) {
+                if self.power(query, w).compare(&least, query) == 0 && seen.insert(w) {
                     tied.push(w);
                 }
             }
@@ -167,17 +177,13 @@ where
 /// A vertex on the way to the nearest ones: the greatest is the nearest, with the lowest index.
 struct Candidate<const D: usize> {
     query: [f64; D],
-    point: [f64; D],
-    squared: f64,
+    power: Power<D>,
     vertex: u32,
 }
 
 impl<const D: usize> Ord for Candidate<D> {
     fn cmp(&self, other: &Self) -> Ordering {
-        let difference: Sign = match certain_difference(self.squared, other.squared) {
-            0 => compare_distances(self.query, self.point, other.point),
-            difference => difference,
-        };
+        let difference = self.power.compare(&other.power, self.query);
         difference.cmp(&0).reverse().then(other.vertex.cmp(&self.vertex))
     }
 }

@@ -64,6 +64,7 @@ where
             duplicate_of: Cow::Owned(map(points.len(), 0, |rank| {
                 rank_or_none(complex.duplicate_of[points[rank] as usize], &ranks)
             })),
+            weights: Cow::Borrowed(&[]),
         };
         Sorted { complex: sorted, points, simplices, places }
     }

@@ -34,12 +34,16 @@ impl Geometry<2, 3> for Euclidean {
         exact::incircle(a, b, c, p)
     }
 
+    fn is_below(&[a, b, c]: &[[f64; 2]; 3], &[of_a, of_b, of_c]: &[f64; 3], (p, of_p): ([f64; 2], f64)) -> Sign {
+        exact::power_sign([a, b, c, p], [of_a, of_b, of_c, of_p])
+    }
+
     fn determinant_in<T: Ring>([u, v]: &[[T; 2]; 2]) -> T {
         u[0].clone() * v[1].clone() - u[1].clone() * v[0].clone()
     }
 
-    fn circumcenter_fraction<T: Ring>([b, c]: &[[T; 2]; 2]) -> ([T; 2], T) {
-        let (bb, cc) = (polynomial::dot(b, b), polynomial::dot(c, c));
+    fn center_fraction<T: Ring>([b, c]: &[[T; 2]; 2], squares: &[T; 2]) -> ([T; 2], T) {
+        let [bb, cc] = squares.clone();
         let [[bx, by], [cx, cy]] = [b.clone(), c.clone()];
         let x = cy.clone() * bb.clone() - by.clone() * cc.clone();
         let y = bx.clone() * cc - cx.clone() * bb;

@@ -38,13 +38,17 @@ impl Geometry<3, 4> for Euclidean {
         exact::insphere(a, b, c, d, p)
     }
 
+    fn is_below(&[a, b, c, d]: &[[f64; 3]; 4], weights: &[f64; 4], (p, of_p): ([f64; 3], f64)) -> Sign {
+        let [of_a, of_b, of_c, of_d] = *weights;
+        exact::power_sign([a, b, c, d, p], [of_a, of_b, of_c, of_d, of_p])
+    }
+
     fn determinant_in<T: Ring>([u, v, w]: &[[T; 3]; 3]) -> T {
         polynomial::dot(u, &polynomial::cross(v, w))
     }
 
-    fn circumcenter_fraction<T: Ring>([b, c, d]: &[[T; 3]; 3]) -> ([T; 3], T) {
+    fn center_fraction<T: Ring>([b, c, d]: &[[T; 3]; 3], squares: &[T; 3]) -> ([T; 3], T) {
         let normals = [(c, d), (d, b), (b, c)].map(|(u, v)| polynomial::cross(u, v));
-        let squares = [b, c, d].map(|u| polynomial::dot(u, u));
         let numerator = std::array::from_fn(|axis| {
             let [x, y, z] = [0, 1, 2].map(|i| squares[i].clone() * normals[i][axis].clone());
             x + y + z

@@ -5,11 +5,13 @@
 
 mod d2;
 mod d3;
+mod power;
 pub(crate) mod real;
 pub(crate) mod vector;
 
 pub(crate) use d2::angles;
 pub(crate) use d3::{dihedral_angles, precise_triangle_circumcenter_offset};
+pub(crate) use power::{Power, below_on_line, exact_power_center_offset, power_center_offset};
 
 use crate::{
     input::order::Curve,
@@ -58,12 +60,23 @@ pub trait Geometry<const D: usize, const N: usize>: Copy + Send + Sync + 'static
     /// outside, 0 on it; exactly.
     fn in_sphere(simplex: &[[f64; D]; N], p: [f64; D]) -> Sign;
 
+    /// Returns 1 if a point with its weight is below a positively oriented simplex with weights when all are lifted, −1
+    /// above, 0 on it; exactly. With equal weights it is [`in_sphere`](Self::in_sphere).
+    fn is_below(simplex: &[[f64; D]; N], weights: &[f64; N], apex: ([f64; D], f64)) -> Sign;
+
     /// Returns the determinant of the rows, exactly if the ring is exact.
     fn determinant_in<T: Ring>(rows: &[[T; D]; D]) -> T;
 
     /// Returns the circumcentre relative to the origin, which is a vertex of the simplex, times the
     /// second result. The edges lead to the other vertices.
-    fn circumcenter_fraction<T: Ring>(edges: &[[T; D]; D]) -> ([T; D], T);
+    fn circumcenter_fraction<T: Ring>(edges: &[[T; D]; D]) -> ([T; D], T) {
+        Self::center_fraction(edges, &std::array::from_fn(|k| dot(&edges[k], &edges[k])))
+    }
+
+    /// Returns the point c with 2·c·u = s for each edge u and its number s, times the second result: the circumcentre
+    /// if these are the squared lengths of the edges, and the power centre if the differences of the weights to that of
+    /// the origin are subtracted.
+    fn center_fraction<T: Ring>(edges: &[[T; D]; D], squares: &[T; D]) -> ([T; D], T);
 
     /// Returns the circumcentre relative to the first vertex, from the edges that lead to the
     /// others, if rounding surely did not move it by more than 2⁻³⁷ times the circumradius.
@@ -169,6 +182,11 @@ fn exact_offset<const D: usize, const K: usize, const E: usize>(
     let exponent = common_exponent(points.as_flattened());
     let integers = points.map(|p| p.map(|x| Big::new(x, exponent)));
     let (numerator, denominator) = fraction(&std::array::from_fn(|i| minus(&integers[i + 1], &integers[0])));
+    positive(numerator, denominator, exponent)
+}
+
+/// Returns a fraction with a positive denominator, if it has a denominator.
+fn positive<const D: usize>(numerator: [Big; D], denominator: Big, exponent: i32) -> Option<Fraction<D>> {
     match denominator.sign() {
         1 => Some((numerator, denominator, exponent)),
         -1 => Some((numerator.map(|x| Big::from(0) - x), Big::from(0) - denominator, exponent)),

@@ -6,7 +6,7 @@
 use crate::predicates::{
     Sign,
     big::{Big, common_exponent},
-    polynomial::{Approximate, Ring, dot, minus},
+    polynomial::{Ring, WeightedPolynomial, dot, minus, weighted_sign},
 };
 use robust::{Coord, Coord3D};
 use std::ops::Add;
@@ -53,30 +53,26 @@ fn big_sign(points: &[&[f64]], lifted: bool) -> Sign {
 /// Returns the sign of the in-sphere or in-circle determinant of weighted points, exactly, for all finite coordinates and
 /// weights: positive if the last of D + 2 points, lifted to the height |p|² − w, is below the lifted simplex of the
 /// others, which is positively oriented.
-#[inline(never)]
 pub fn power_sign<const D: usize, const N: usize>(points: [[f64; D]; N], weights: [f64; N]) -> Sign {
-    let approximate = power_determinant(&points.map(|p| p.map(Approximate::exact)), &weights.map(Approximate::exact));
-    if let Some(sign) = approximate.sign() {
-        return sign;
-    }
-    // Coordinates are multiplied by a power of two, weights by its square.
-    let exponent = common_exponent(points.as_flattened()).min(common_exponent(&weights).div_euclid(2));
-    let points = points.map(|p| p.map(|x| Big::new(x, exponent)));
-    power_determinant(&points, &weights.map(|w| Big::new(w, 2 * exponent))).sign()
+    weighted_sign(&PowerDeterminant, &points, &weights)
 }
 
-/// Returns the determinant whose rows are the differences to the last point, each after its lifted height.
-fn power_determinant<T: Ring, const D: usize, const N: usize>(points: &[[T; D]; N], weights: &[T; N]) -> T {
-    let rows: [[T; D]; N] = std::array::from_fn(|i| minus(&points[i], &points[N - 1]));
-    let mut sum = T::from(0);
-    // The last difference is 0.
-    for i in 0..=D {
-        let others: [&[T; D]; D] = std::array::from_fn(|k| &rows[k + usize::from(k >= i)]);
-        let lift = dot(&rows[i], &rows[i]) - (weights[i].clone() - weights[N - 1].clone());
-        let term = lift * volume(others);
-        sum = if i % 2 == 0 { sum + term } else { sum - term };
+/// The determinant whose rows are the differences to the last point, each after its lifted height.
+struct PowerDeterminant;
+
+impl<const D: usize, const N: usize> WeightedPolynomial<N, D> for PowerDeterminant {
+    fn value<T: Ring>(&self, points: &[[T; D]; N], weights: &[T; N]) -> T {
+        let rows: [[T; D]; N] = std::array::from_fn(|i| minus(&points[i], &points[N - 1]));
+        let mut sum = T::from(0);
+        // The last difference is 0.
+        for i in 0..=D {
+            let others: [&[T; D]; D] = std::array::from_fn(|k| &rows[k + usize::from(k >= i)]);
+            let lift = dot(&rows[i], &rows[i]) - (weights[i].clone() - weights[N - 1].clone());
+            let term = lift * volume(others);
+            sum = if i % 2 == 0 { sum + term } else { sum - term };
+        }
+        sum
     }
-    sum
 }
 
 /// Returns the determinant of two vectors in 2D, or three in 3D.

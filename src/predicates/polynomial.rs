@@ -23,6 +23,13 @@ pub(crate) trait Polynomial<const K: usize, const D: usize> {
     fn value<T: Ring>(&self, points: &[[T; D]; K]) -> T;
 }
 
+/// A polynomial of the coordinates of `K` points and of their weights.
+pub(crate) trait WeightedPolynomial<const K: usize, const D: usize> {
+    /// Evaluates the polynomial. It must be homogeneous if a weight has degree 2, since the coordinates may all have
+    /// been multiplied by the same power of two, and the weights by its square.
+    fn value<T: Ring>(&self, points: &[[T; D]; K], weights: &[T; K]) -> T;
+}
+
 /// Returns the sign of a polynomial, exactly, for all finite coordinates.
 #[inline]
 pub(crate) fn sign<const K: usize, const D: usize>(polynomial: &impl Polynomial<K, D>, points: &[[f64; D]; K]) -> Sign {
@@ -42,6 +49,37 @@ pub(crate) fn exact_sign<const K: usize, const D: usize>(
     let exponent = common_exponent(points.as_flattened());
     let small = || Some(polynomial.value(&try_map(points, |x| Checked::new(x, exponent))?).0?.signum() as Sign);
     small().unwrap_or_else(|| polynomial.value(&points.map(|p| p.map(|x| Big::new(x, exponent)))).sign())
+}
+
+/// Returns the sign of a polynomial, exactly, for all finite coordinates and weights.
+#[inline(never)]
+pub(crate) fn weighted_sign<const K: usize, const D: usize>(
+    polynomial: &impl WeightedPolynomial<K, D>,
+    points: &[[f64; D]; K],
+    weights: &[f64; K],
+) -> Sign {
+    let approximate = polynomial.value(&points.map(|p| p.map(Approximate::exact)), &weights.map(Approximate::exact));
+    if let Some(sign) = approximate.sign() {
+        return sign;
+    }
+    let exponent = weighted_exponent(points.as_flattened(), weights);
+    let small = || {
+        let points = try_map(points, |x| Checked::new(x, exponent))?;
+        let [weights] = try_map(&[*weights], |w| Checked::new(w, 2 * exponent))?;
+        Some(polynomial.value(&points, &weights).0?.signum() as Sign)
+    };
+    small().unwrap_or_else(|| {
+        let points = points.map(|p| p.map(|x| Big::new(x, exponent)));
+        polynomial.value(&points, &weights.map(|w| Big::new(w, 2 * exponent))).sign()
+    })
+}
+
+/// Returns the largest exponent *e* such that all coordinates are integers times 2ᵉ, and all weights integers times
+/// 2²ᵉ.
+pub(crate) fn weighted_exponent(coordinates: &[f64], weights: &[f64]) -> i32 {
+    let of_weights = common_exponent(weights).div_euclid(2);
+    // Where all weights are 0, their exponent is 0, as good as any.
+    common_exponent(coordinates).min(of_weights)
 }
 
 /// Applies `f` to all coordinates, until one has no result.

@@ -229,8 +229,8 @@ fn a_weighted_mesh_is_not_taken_for_a_delaunay_triangulation() {
         assert_eq!((stats.backend, stats.fallback), (Backend::Cpu, fallback));
     }
     let refused = Some(Error::WeightedMesh);
-    assert_eq!(gdel::Locator2::new(&mesh, &points).err(), refused);
-    assert_eq!(gdel::Voronoi2::new(&mesh, &points, gdel::Clip::Hull).err(), refused);
+    assert_eq!(gdel::Contours2::new(&mesh, &points, &[0.0; 4]).err(), refused);
+    assert_eq!(gdel::Surface::new(&mesh, &points, &gdel::SurfaceOptions::default()).err(), refused);
     assert_eq!(gdel::AlphaShape2::new(&mesh, &points).err(), refused);
     assert_eq!(gdel::SpanningTree::new(&mesh, &points).err(), refused);
     let mut edited = mesh.clone();

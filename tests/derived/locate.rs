@@ -15,7 +15,7 @@ where
     Euclidean::side(&<Euclidean as Geometry<D, N>>::FACETS[k].map(|corner| simplex[corner]), p)
 }
 
-fn check<const D: usize, const N: usize>(name: &str, mesh: &impl Mesh<D, N>, points: &[[f64; D]])
+pub fn check<const D: usize, const N: usize>(name: &str, mesh: &impl Mesh<D, N>, points: &[[f64; D]])
 where
     Euclidean: Geometry<D, N>,
 {

@@ -21,3 +21,4 @@ mod surfaces_pinned;
 mod tree;
 mod unused;
 mod voronoi;
+mod weighted;

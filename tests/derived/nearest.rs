@@ -8,7 +8,7 @@ use gdel::{
 use num_bigint::BigInt;
 
 /// Returns `x`·2¹⁰⁷⁴.
-fn integer(x: f64) -> BigInt {
+pub fn integer(x: f64) -> BigInt {
     let exponent = (x.to_bits() >> 52 & 0x7ff) as i32;
     let fraction = (x.to_bits() & ((1 << 52) - 1)) as i64;
     let magnitude =

@@ -12,7 +12,7 @@ use gdel::{
     },
 };
 
-fn bounds<const D: usize>(points: &[[f64; D]]) -> [[f64; D]; 2] {
+pub fn bounds<const D: usize>(points: &[[f64; D]]) -> [[f64; D]; 2] {
     let all = |f: fn(f64, f64) -> f64| {
         points.iter().copied().reduce(|p, q| std::array::from_fn(|i| f(p[i], q[i]))).unwrap_or([0.0; D])
     };
@@ -20,7 +20,7 @@ fn bounds<const D: usize>(points: &[[f64; D]]) -> [[f64; D]; 2] {
 }
 
 /// Boxes around the points, and one that cuts through them.
-fn boxes<const D: usize>(points: &[[f64; D]]) -> Vec<[[f64; D]; 2]> {
+pub fn boxes<const D: usize>(points: &[[f64; D]]) -> Vec<[[f64; D]; 2]> {
     let [low, high] = bounds(points);
     let grown = |by: f64| {
         let by: [f64; D] = std::array::from_fn(|i| by * (high[i] - low[i]));

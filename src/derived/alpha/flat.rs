@@ -63,6 +63,7 @@ impl<const D: usize> FlatCells<D> {
             simplices: Cow::Owned(cells),
             neighbors: Cow::Owned(neighbors),
             duplicate_of: radii.mesh.complex.duplicate_of.clone(),
+            weights: Cow::Borrowed(&[]),
         };
         FlatCells { complex, corners, squared }
     }

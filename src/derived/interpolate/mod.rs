@@ -100,8 +100,12 @@ where
     ///
     /// # Errors
     ///
-    /// [`Error::ValueCount`] if there are not as many values as points, [`Error::OutOfMemory`].
+    /// [`Error::ValueCount`] if there are not as many values as points, [`Error::WeightedMesh`],
+    /// [`Error::OutOfMemory`].
     pub fn new(locator: &'a Locator<'a, D, N>, values: &'a [f64]) -> Result<Self, Error> {
+        if !locator.complex.weights.is_empty() {
+            return Err(Error::WeightedMesh);
+        }
         let points = locator.complex.points().len();
         if values.len() != points {
             return Err(Error::ValueCount { values: values.len(), points });

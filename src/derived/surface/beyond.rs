@@ -71,6 +71,7 @@ where
             simplices: Cow::Owned(simplices),
             neighbors: Cow::Owned(neighbors),
             duplicate_of: Cow::Borrowed(&complex.duplicate_of),
+            weights: Cow::Borrowed(&[]),
         };
         Extended { complex, names: [names, &[INFINITY]].concat(), is_inside }
     }

@@ -13,7 +13,7 @@ const RANKED: usize = 48;
 pub struct Cell<const D: usize = 3> {
     /// The vertices. Vertices that coincide because of a tie are several.
     pub vertices: Vec<[f64; D]>,
-    /// For each vertex the simplex of the mesh whose circumcentre it is; [`NONE`](crate::NONE) if
+    /// For each vertex the simplex of the mesh whose circumcentre or power centre it is; [`NONE`](crate::NONE) if
     /// clipping made it.
     pub simplices: Vec<u32>,
     /// The vertices of each facet: counter-clockwise as seen from outside in 3D, both ends
@@ -53,7 +53,7 @@ impl<const D: usize> Default for Cell<D> {
 
 impl<const D: usize> Cell<D> {
     /// Returns whether nothing is left of the cell: it was outside what the diagram was clipped to,
-    /// or belongs to a duplicate, or the mesh has no simplices.
+    /// or belongs to a duplicate or a hidden point, or the mesh has no simplices.
     pub fn is_empty(&self) -> bool {
         self.facets.is_empty()
     }

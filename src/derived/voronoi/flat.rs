@@ -3,18 +3,14 @@
 use super::{
     super::{
         Locator,
-        flat::{Flat, Frame, Shape, in_space},
+        flat::{Flat, Frame, Shape, in_space, triangulate},
     },
     Cell, Clip, Voronoi, VoronoiShapes, check_box,
 };
 use crate::{
-    cpu,
-    d2::Mesh2,
     error::Error,
     geometry::{Euclidean, vector},
     index::NONE,
-    input::points::Points,
-    options::Options,
 };
 
 /// Returns the cell of each point, if the points do not span all dimensions and what the cells are clipped
@@ -70,7 +66,9 @@ where
     let vertices: Vec<u32> = complex.vertices().collect();
     let project = |p: [f64; D]| frame.project(in_space(p));
     let points: Vec<[f64; 2]> = vertices.iter().map(|&v| project(complex.point(v))).collect();
-    let mesh: Mesh2 = cpu::delaunay(Points::F64(&points), &Options::default())?;
+    let weights: Vec<f64> =
+        if complex.weights.is_empty() { Vec::new() } else { vertices.iter().map(|&v| complex.weight(v)).collect() };
+    let mesh = triangulate::<2>(&points, &weights)?;
     let voronoi = Voronoi::<2, 3>::new(&mesh, &points, Clip::Box(bounds.map(project)))?;
     lift(&voronoi, &frame, &vertices, cells);
     Ok(())
@@ -112,7 +110,10 @@ fn on_line<const D: usize, const N: usize>(
         return;
     }
     let point = |v: u32| locator.complex.point(v);
-    let middle = |v: u32, w: u32| vector::plus(vector::times(0.5, point(v)), vector::times(0.5, point(w)));
+    let middle = |v: u32, w: u32| {
+        let difference = locator.complex.weight(v) - locator.complex.weight(w);
+        middle(point(v), point(w), difference)
+    };
     // The bounds of the hull are its ends; those of a box have the line as their only extent.
     let (first, last) = (point(vertices[0]), point(vertices[vertices.len() - 1]));
     let [low, high] = bounds.map_or([first, last], |&[low, high]| {
@@ -129,7 +130,8 @@ fn on_line<const D: usize, const N: usize>(
         let cell = &mut cells[v as usize];
         let ends = [(0, low), (1, high)].map(|(side, bound): (usize, [f64; D])| {
             let Some(neighbor) = neighbors[side] else { return bounds.map(|_| (bound, NONE)) };
-            let end = middle(v, neighbor);
+            // The same for both.
+            let end = if side == 0 { middle(neighbor, v) } else { middle(v, neighbor) };
             let is_beyond = if side == 0 { end[*axis] < bound[*axis] } else { end[*axis] > bound[*axis] };
             Some(if bounds.is_some() && is_beyond { (bound, NONE) } else { (end, neighbor) })
         });
@@ -151,4 +153,18 @@ fn on_line<const D: usize, const N: usize>(
             cell.areas.push(1.0);
         }
     }
+}
+
+/// Returns the place on the line of two points where their power distances are equal, if the weight of the first one is
+/// greater by a difference. It may be infinite.
+fn middle<const D: usize>(p: [f64; D], q: [f64; D], difference: f64) -> [f64; D] {
+    let middle = vector::plus(vector::times(0.5, p), vector::times(0.5, q));
+    if difference == 0.0 {
+        return middle;
+    }
+    let to = vector::minus(q, p);
+    let length = vector::norm(to);
+    let share = 0.5 * difference / length / length;
+    // Not 0 times infinity.
+    std::array::from_fn(|axis| if to[axis] == 0.0 { middle[axis] } else { middle[axis] + share * to[axis] })
 }

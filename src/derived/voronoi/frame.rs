@@ -34,6 +34,11 @@ impl<const D: usize> Frame<D> {
         (scale != 1.0 || origin != [0.0; D]).then_some(Frame { origin, scale })
     }
 
+    /// Returns the power of two that coordinates are multiplied by.
+    pub(super) fn scale(&self) -> f64 {
+        self.scale
+    }
+
     /// Returns a point in the frame.
     pub(super) fn inner(&self, p: [f64; D]) -> [f64; D] {
         std::array::from_fn(|axis| (p[axis] - self.origin[axis]) * self.scale)

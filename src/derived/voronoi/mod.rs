@@ -1,4 +1,4 @@
-//! Voronoi diagrams, the duals of Delaunay triangulations.
+//! Voronoi diagrams, the duals of Delaunay triangulations, and power diagrams, those of regular triangulations.
 
 mod cell;
 mod flat;
@@ -6,6 +6,7 @@ mod frame;
 mod hull;
 mod polytope;
 mod shapes;
+mod weights;
 mod window;
 
 pub use cell::Cell;
@@ -13,10 +14,15 @@ pub use shapes::VoronoiShapes;
 use shapes::{Row, Star};
 pub(super) use shapes::{THIRD, place, ring};
 
-use super::{Locator, complex::Coordinates, queries::order_along_curve};
+use super::{
+    Locator,
+    complex::{Complex, Coordinates},
+    locate::Place,
+    queries::order_along_curve,
+};
 use crate::{
     error::Error,
-    geometry::{Euclidean, Geometry, circumcenter, facet, vector},
+    geometry::{Euclidean, Geometry, facet, vector},
     index::NONE,
     input::points::Points,
     mesh::Csr,
@@ -25,6 +31,7 @@ use crate::{
 };
 use frame::Frame;
 use polytope::Polytope;
+use weights::Weights;
 use window::Window;
 pub(super) use window::check_box;
 
@@ -77,6 +84,12 @@ pub enum Clip<'c, const D: usize = 3> {
 /// circumcentre, however far away, makes them wrong. Facets that are empty because of a tie are
 /// left out, exactly.
 ///
+/// A mesh of [weighted](crate::Triangulator::regular3d) points has the power diagram: distances are power distances,
+/// |x − p|² − *w*, and the vertices power centres, with errors below 2⁻³⁶ of how far they or the other sites are. A
+/// site may be outside its own cell. The cells of hidden points are empty, and so are those that only touch what the
+/// diagram is clipped to. A cell that has no inside because of a tie has the volume 0, and no facets if it is a single
+/// place.
+///
 /// Points in a plane, or on a line, have cells of their own dimension, unless these are clipped to a
 /// box that has an inside: polygons, or segments. Their facets then are edges with two vertices, or
 /// ends with one, and areas and volumes are lengths and areas, or 1 and lengths. In a plane that is not
@@ -111,10 +124,12 @@ pub struct Voronoi<'a, const D: usize = 3, const N: usize = 4> {
     /// The points as they were given.
     points: Points<'a, D>,
     frame: Option<Frame<D>>,
+    /// The weights of the points. The locator has none.
+    weights: Weights<'a>,
     window: Window<D>,
     /// The simplices around each vertex.
     stars: Csr,
-    /// The circumcentre of each simplex, in the coordinates of the frame.
+    /// The circumcentre or power centre of each simplex, in the coordinates of the frame.
     vertices: Vec<[f64; D]>,
     /// The same in the coordinates of the points, if there is a frame.
     outer_vertices: Option<Vec<[f64; D]>>,
@@ -152,8 +167,8 @@ pub type Voronoi2<'a> = Voronoi<'a, 2, 3>;
 #[derive(Debug, Clone, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Diagram<const D: usize = 3> {
-    /// The vertices: first the circumcentre of each simplex of the mesh, then those that clipping
-    /// made. Of the circumcentres not all are vertices of cells, if the diagram was clipped.
+    /// The vertices: first the circumcentre or power centre of each simplex of the mesh, then those that clipping
+    /// made. Of the centres not all are vertices of cells, if the diagram was clipped.
     pub vertices: Vec<[f64; D]>,
     /// The vertices of each facet, as in [`Cell::facets`].
     pub facets: Csr,
@@ -163,7 +178,7 @@ pub struct Diagram<const D: usize = 3> {
     /// The area of each facet, its length in 2D; infinite for unbounded facets.
     pub areas: Vec<f64>,
     /// Where the facets of each point's cell start, and one more entry that says where the last
-    /// ones end. A duplicate has none.
+    /// ones end. Duplicates and hidden points have none.
     pub cells: Vec<usize>,
     /// The volume of each point's cell, its area in 2D: infinite for unbounded cells, 0 for empty
     /// ones.
@@ -181,7 +196,7 @@ where
     ///
     /// # Errors
     ///
-    /// [`Error::PointCount`], [`Error::NotFinite`] or [`Error::BrokenMesh`] as for
+    /// [`Error::PointCount`], [`Error::NotFinite`], [`Error::BadWeight`] or [`Error::BrokenMesh`] as for
     /// [`Locator::new`](crate::Locator::new); [`Error::EmptyBox`] if the lowest corner of the box
     /// is not below the highest, or not finite, unless the points are as flat as the box;
     /// [`Error::BadOption`] if the corners of a convex shape are not finite, flat, or not all on their
@@ -192,10 +207,16 @@ where
         let flat = flat::cells(&locator, &clip)?;
         let frame = points.bounds().and_then(Frame::of);
         let window = if flat.is_some() { Window::All } else { Window::new(clip, frame)? };
+        let on_hull = on_hull(&locator.complex);
+        let is_clipped_to_hull = matches!(window, Window::Hull);
+        let nearest = (is_clipped_to_hull && !locator.complex.weights.is_empty())
+            .then(|| hull::nearest_to_corners(&locator, &on_hull));
+        let weights = std::mem::take(&mut locator.complex.weights);
+        let weights = Weights { given: weights, scale: frame.map_or(1.0, |frame| frame.scale()) };
         if let Some(frame) = frame {
-            let mut complex = locator.complex;
+            let Locator { mut complex, flat, .. } = locator;
             complex.points = Coordinates::Owned(frame.inner_points(points));
-            locator = Locator::of(complex)?;
+            locator = Locator::of(complex, flat);
         }
         let complex = &locator.complex;
         let stars = Csr::stars(&complex.simplices, complex.points().len());
@@ -205,24 +226,22 @@ where
             for (block, simplices) in chunk.chunks_mut(BLOCK).zip(complex.simplices[start..].chunks(BLOCK)) {
                 corners.clear();
                 corners.extend(simplices.iter().map(|simplex| complex.corners_of(simplex)));
-                for (vertex, corners) in block.iter_mut().zip(&corners) {
-                    *vertex = circumcenter(corners);
+                for (vertex, (simplex, corners)) in block.iter_mut().zip(simplices.iter().zip(&corners)) {
+                    *vertex = weights.center(simplex, corners, points);
                 }
             }
         });
-        let mut on_hull = vec![false; complex.points().len()];
-        for (simplex, neighbors) in complex.simplices.iter().zip(&*complex.neighbors) {
-            for k in (0..N).filter(|&k| neighbors[k] == NONE) {
-                facet(simplex, k).into_iter().for_each(|v| on_hull[v as usize] = true);
-            }
-        }
-        let (hull_facets_of_cells, hull_facets) =
-            if let Window::Hull = window { hull::hull_facets_of_cells(&locator) } else { Default::default() };
+        let (hull_facets_of_cells, hull_facets) = if is_clipped_to_hull {
+            hull::hull_facets_of_cells(&locator, &weights, nearest.as_ref())
+        } else {
+            Default::default()
+        };
         let outer_vertices = frame.map(|frame| vertices.iter().map(|&vertex| frame.outer(vertex)).collect());
         Ok(Voronoi {
             locator,
             points,
             frame,
+            weights,
             window,
             stars,
             vertices,
@@ -234,13 +253,13 @@ where
         })
     }
 
-    /// Returns the vertices of the diagram before it is clipped: the circumcentre of each simplex
-    /// of the mesh.
+    /// Returns the vertices of the diagram before it is clipped: the circumcentre, with weights the power centre, of
+    /// each simplex of the mesh.
     pub fn vertices(&self) -> &[[f64; D]] {
         self.outer_vertices.as_ref().unwrap_or(&self.vertices)
     }
 
-    /// Returns the cell of point `i`; an empty one for duplicates.
+    /// Returns the cell of point `i`; an empty one for duplicates and hidden points.
     ///
     /// # Panics
     ///
@@ -278,6 +297,20 @@ where
     /// let mesh = gdel::delaunay2d(&points)?;
     /// let perimeters = Voronoi::new(&mesh, &points, Clip::Hull)?.map_cells(|_, cell| cell.areas.iter().sum::<f64>());
     /// assert!((perimeters[2] - (2.0 + 2f64.sqrt())).abs() < 1e-14);
+    /// # Ok::<(), gdel::Error>(())
+    /// ```
+    ///
+    /// With weights:
+    ///
+    /// ```
+    /// use gdel::{Clip, Triangulator, Voronoi};
+    ///
+    /// let points = [[0.0, 0.0], [4.0, 0.0], [0.0, 4.0], [4.0, 4.0], [1.0, 1.0f64]];
+    /// let mesh = Triangulator::new().regular2d(&points, &[4.0, 0.0, 0.0, 4.0, -9.0])?;
+    /// let areas = Voronoi::new(&mesh, &points, Clip::Hull)?.map_cells(|_, cell| cell.volume);
+    /// // The heavy corners have more than a quarter of the square, and the last point is hidden.
+    /// assert_eq!(mesh.hidden, [4]);
+    /// assert_eq!(areas, [5.75, 2.25, 2.25, 5.75, 0.0]);
     /// # Ok::<(), gdel::Error>(())
     /// ```
     pub fn map_cells<R: Send>(&self, f: impl Fn(u32, &Cell<D>) -> R + Sync) -> Vec<R> {
@@ -430,6 +463,11 @@ where
         relative.extend(vertices.iter().map(|&vertex| vector::minus(vertex, site)));
         let around = Around { star, rows, relative };
         let mut moment = self.find_facets(i, &around, cell, scratch);
+        // With weights, a cell may be a single place, or beyond the hull.
+        if cell.facets.is_empty() || self.is_beyond_hull(i, cell, moment, site, vertices[0]) {
+            cell.clear();
+            return;
+        }
         if self.is_whole(i, vertices) {
             cell.vertices.extend_from_slice(vertices);
             cell.simplices.extend(star);
@@ -444,12 +482,41 @@ where
     fn finish(&self, cell: &mut Cell<D>, site: [f64; D], moment: [f64; D]) {
         if !cell.is_bounded {
             cell.volume = f64::INFINITY;
-        } else if cell.volume > 0.0 {
+        } else if cell.volume > self.noise(cell, site) {
             cell.centroid = vector::plus(site, vector::times(1.0 / cell.volume, moment));
+        } else if !self.weights.is_empty() {
+            cell.volume = 0.0;
         }
         if let Some(frame) = &self.frame {
             frame.restore(cell);
         }
+    }
+
+    /// Returns a bound of what errors can make of a volume of 0, as a cell can have with weights: because of a tie, all
+    /// of it is then within a facet. Without weights, that is 0.
+    fn noise(&self, cell: &Cell<D>, site: [f64; D]) -> f64 {
+        if self.weights.is_empty() {
+            return 0.0;
+        }
+        let reach = cell.vertices.iter().map(|&p| vector::norm(vector::minus(p, site))).fold(0.0, f64::max);
+        reach * cell.areas.iter().sum::<f64>() * (1.0 / (1u64 << 36) as f64)
+    }
+
+    /// Returns whether the cell of vertex `v`, which has this volume and this integral of the coordinates, is beyond
+    /// the hull to which the diagram is clipped.
+    fn is_beyond_hull(&self, v: u32, cell: &Cell<D>, moment: [f64; D], site: [f64; D], vertex: [f64; D]) -> bool {
+        if self.weights.is_empty()
+            || !matches!(self.window, Window::Hull)
+            || !self.hull_facets_of_cells.of(v).is_empty()
+        {
+            return false;
+        }
+        // It is all inside or all outside, and unbounded if its site is on the hull.
+        let inner =
+            if cell.volume > 0.0 { vector::plus(site, vector::times(1.0 / cell.volume, moment)) } else { vertex };
+        self.on_hull[v as usize]
+            || inner.iter().any(|x| !x.is_finite())
+            || matches!(self.locator.place(inner, None), Ok(Some(Place { beyond: Some(_), .. })))
     }
 
     /// Returns whether clipping leaves the cell of vertex `v`, with these vertices, as it is.
@@ -466,10 +533,16 @@ where
     fn find_facets(&self, v: u32, around: &Around<'_, D, N>, cell: &mut Cell<D>, scratch: &mut Star) -> [f64; D] {
         let &Around { star, rows, relative } = around;
         let mut moment = [0.0; D];
-        let reach = relative.iter().fold(0.0, |max, &p| vector::squared_norm(p).max(max)).sqrt();
+        let site = self.locator.complex.point(v);
+        let mut reach = relative.iter().fold(0.0, |max, &p| vector::squared_norm(p).max(max));
+        if !self.weights.is_empty() {
+            // What the errors of power centres are relative to, too. Without weights it is less.
+            let others = rows.iter().flat_map(|(simplex, _)| simplex).map(|&w| self.locator.complex.point(w));
+            reach = others.map(|p| vector::squared_norm(vector::minus(p, site))).fold(reach, f64::max);
+        }
+        let reach = reach.sqrt();
         // Far more than the errors of all these, which are below 2⁻³⁷ times the circumradius, and
         // what rounding to coordinates costs.
-        let site = self.locator.complex.point(v);
         let error = reach * (1.0 / (1u64 << 30) as f64) + vector::norm(site) * (1.0 / (1u64 << 48) as f64);
         // More than what errors can make of an area or length of 0, for each vertex of the facet.
         let tiny = if D == 2 { error } else { error * reach } + f64::MIN_POSITIVE;
@@ -508,7 +581,7 @@ where
             }
             let [t, u] = [t, u].map(|place| star[place as usize] as usize);
             let apex = complex.simplices[u].into_iter().find(|w| !complex.simplices[t].contains(w));
-            apex.is_some_and(|w| Euclidean::in_sphere(&complex.corners(t), complex.point(w)) != 0)
+            apex.is_some_and(|w| !self.weights.is_tied(&complex.simplices[t], w, self.points))
         };
         let edges = ring.windows(2).map(|pair| [pair[0], pair[1]]);
         let last = ring.last().zip(ring.first()).filter(|_| is_closed && ring.len() > 2).map(|(&t, &u)| [t, u]);
@@ -559,7 +632,7 @@ where
         polytope.reset(bounds.map(|corner| vector::minus(corner, site)), NONE);
         let bisector = |&neighbor: &u32| {
             let to = vector::minus(complex.point(neighbor), site);
-            (0.5 * vector::squared_norm(to), to, neighbor)
+            (self.weights.bisector(v, neighbor, to), to, neighbor)
         };
         let mut bisectors: Vec<_> = cell.neighbors.iter().map(bisector).collect();
         // The nearest ones first: what these leave, the others cut less of.
@@ -594,8 +667,26 @@ where
         });
         cell.vertices.extend(vertices.iter().map(|&vertex| vector::plus(vertex, site)));
         cell.simplices.resize(cell.vertices.len(), NONE);
+        // With weights, a cell may only touch what it is clipped to.
+        if !self.weights.is_empty() && cell.volume <= self.noise(cell, site) {
+            cell.clear();
+        }
         moment
     }
+}
+
+/// Returns for each point whether it is a vertex on the hull.
+fn on_hull<const D: usize, const N: usize>(complex: &Complex<'_, D, N>) -> Vec<bool>
+where
+    Euclidean: Geometry<D, N>,
+{
+    let mut on_hull = vec![false; complex.points().len()];
+    for (simplex, neighbors) in complex.simplices.iter().zip(&*complex.neighbors) {
+        for k in (0..N).filter(|&k| neighbors[k] == NONE) {
+            facet(simplex, k).into_iter().for_each(|v| on_hull[v as usize] = true);
+        }
+    }
+    on_hull
 }
 
 /// The star of a vertex.
