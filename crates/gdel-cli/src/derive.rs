@@ -136,6 +136,9 @@ pub(super) fn parse_solid(path: &str, what: &'static str) -> Result<ResultOutput
 struct Report<'a> {
     points: usize,
     duplicates: usize,
+    /// Points that are no vertices because of their weights, where there are different ones.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    hidden: Option<usize>,
     dimension: u8,
     #[serde(flatten)]
     counts: Counts,
@@ -159,6 +162,9 @@ impl fmt::Display for Report<'_> {
         write!(f, "{:<16}{}", "points", self.points)?;
         if self.duplicates > 0 {
             write!(f, " ({} duplicates)", self.duplicates)?;
+        }
+        if let Some(hidden) = self.hidden {
+            write!(f, ", {hidden} hidden")?;
         }
         writeln!(f)?;
         write!(f, "{}", Flatness { dimension: self.dimension, points: self.points, counts: self.counts })?;
@@ -242,11 +248,21 @@ impl Common {
         what: &'static str,
         derive: impl Fn(&M) -> Result<Found<T>, Error>,
     ) -> Result<(M, T), Failure> {
+        self.run_weighted((points, None), what, derive)
+    }
+
+    /// Does the same with points that may have weights.
+    pub(super) fn run_weighted<M: Triangulation<D, N> + Mesh<D, N>, const D: usize, const N: usize, T>(
+        &self,
+        (points, weights): (Points<'_, D>, Option<&[f64]>),
+        what: &'static str,
+        derive: impl Fn(&M) -> Result<Found<T>, Error>,
+    ) -> Result<(M, T), Failure> {
         let failure = |source| Failure::Points { path: self.points.clone(), source };
         // One device for all runs.
         let triangulator = Triangulator::new().backend(self.backend.into());
         let run = || {
-            let (mesh, triangulating) = triangulate::<M, D, N>(points, None, &triangulator).map_err(failure)?;
+            let (mesh, triangulating) = triangulate::<M, D, N>(points, weights, &triangulator).map_err(failure)?;
             let progress = Progress::new(what);
             let start = Instant::now();
             let Found { result, numbers } = derive(&mesh).map_err(failure)?;
@@ -278,6 +294,7 @@ impl Common {
         let report = Report {
             points,
             duplicates: mesh.duplicates(),
+            hidden: mesh.hidden_count(),
             dimension: mesh.dimension(),
             counts: mesh.counts(),
             numbers,

@@ -78,7 +78,10 @@ impl Triangulation<3, 4> for Mesh3 {
 
     fn close_hull(&mut self, points: Points3<'_>) -> Result<(), Error> {
         if self.dimension == 2 {
-            self.hull = AlphaShape::new(self, points)?.at(f64::INFINITY)?.surface().collect();
+            // Weights do not change the polygon.
+            let mut plain = self.clone();
+            plain.weights.clear();
+            self.hull = AlphaShape::new(&plain, points)?.at(f64::INFINITY)?.surface().collect();
         }
         Ok(())
     }

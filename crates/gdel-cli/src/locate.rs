@@ -5,6 +5,7 @@ use super::{
     dimension::{Triangulation, in_dimension},
     failure::Failure,
     sphere,
+    weights::Weights,
 };
 use clap::Args;
 use gdel::{
@@ -20,6 +21,8 @@ pub(super) struct Arguments {
     common: Common,
     #[command(flatten)]
     queries: Queries,
+    #[command(flatten)]
+    weights: Weights,
     /// Take points and queries as longitude and latitude in degrees: `simplex` is then `triangle`, the number of a
     /// triangle in the hull that `triangulate --sphere` writes
     #[arg(long, conflicts_with_all = ["dim", "exact"])]
@@ -31,7 +34,7 @@ pub(super) struct Arguments {
     /// Where to write, one row per query: .csv or .npz. `simplex` is the number of the simplex in
     /// the mesh that `triangulate` writes, −1 outside the hull; `v0`, `v1`, … are its vertices, or
     /// outside those of a facet of the hull that sees the query, and −1; `nearest` is the nearest
-    /// vertex
+    /// vertex, with weights that with the least power distance
     #[arg(short, long = "output", value_name = "FILE", value_parser = parse_table)]
     output: ResultOutput<TableFormat>,
 }
@@ -47,21 +50,22 @@ fn run_in<M: Triangulation<D, N>, const D: usize, const N: usize>(arguments: &Ar
 where
     Euclidean: Geometry<D, N>,
 {
-    let Arguments { common, queries, exact, output, .. } = arguments;
+    let Arguments { common, queries, weights, exact, output, .. } = arguments;
     let input = common.input()?;
     let query_input = queries.input(&input)?;
     common.check(output, &[input.path(), query_input.path()])?;
-    let points = common.read::<D>(&input)?;
+    let (points, weights) = weights.read::<D>(&input)?;
     let queries = Queries::read::<D>(&query_input)?;
     let (points, queries) = (Points::from(&points), Points::from(&queries));
-    let (mesh, (located, nearest)) = common.run::<M, D, N, _>(points, "locate", |mesh| {
-        let locator = locator(mesh, points, *exact)?;
-        let located = locator.locate_many(queries)?;
-        let nearest = locator.nearest_many(queries)?;
-        let outside = located.iter().filter(|location| location.simplex().is_none()).count();
-        let numbers = vec![("queries", Number::Count(queries.len())), ("outside", Number::Count(outside))];
-        Ok(Found { result: (located, nearest), numbers })
-    })?;
+    let (mesh, (located, nearest)) =
+        common.run_weighted::<M, D, N, _>((points, weights.as_deref()), "locate", |mesh| {
+            let locator = locator(mesh, points, *exact)?;
+            let located = locator.locate_many(queries)?;
+            let nearest = locator.nearest_many(queries)?;
+            let outside = located.iter().filter(|location| location.simplex().is_none()).count();
+            let numbers = vec![("queries", Number::Count(queries.len())), ("outside", Number::Count(outside))];
+            Ok(Found { result: (located, nearest), numbers })
+        })?;
     let simplex = |location: &Location| location.simplex().map_or(-1, |t| t as i64);
     let mut table = Table::default().with("simplex", Column::Indices(located.iter().map(simplex).collect()));
     let vertices: Vec<[i64; N]> = located.iter().map(|&location| vertices(&mesh, location)).collect();

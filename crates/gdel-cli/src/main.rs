@@ -25,6 +25,7 @@ mod tree;
 mod triangulate;
 mod verify;
 mod voronoi;
+mod weights;
 
 use clap::{CommandFactory, Parser, Subcommand, error::ErrorKind};
 use failure::Failure;

@@ -2,14 +2,15 @@
 
 use super::{
     constrain,
-    dimension::{Dimension, Rescale, Triangulation, format_parser, in_dimension, read},
+    dimension::{Dimension, Rescale, Triangulation, format_parser, in_dimension},
     failure::Failure,
     progress::Progress,
     report::Report,
     verify,
+    weights::Weights,
 };
 use clap::{Args, ValueEnum, error::ErrorKind};
-use gdel::{Backend, Constrained2, Mesh3, Points, Triangulator, internals::cpu::weights_of_radii};
+use gdel::{Backend, Constrained2, Mesh3, Points, Triangulator};
 use gdel_io::{
     PointCloud, PointFormat,
     files::{Input, Output},
@@ -51,15 +52,10 @@ pub(super) struct Arguments {
     /// Multiply the coordinates by these factors, one per axis, before anything is computed; without
     /// factors, by those that give each axis the same extent. What is written has the given coordinates
     #[arg(long, value_name = "X,Y,Z", num_args = 0..=1, require_equals = true, default_missing_value = "")]
-    #[arg(value_parser = Rescale::parse)]
+    #[arg(value_parser = Rescale::parse, conflicts_with_all = ["weights", "radii"])]
     rescale: Option<Rescale>,
-    /// Compute the regular triangulation of points with weights: the column of the input that holds these, by its name in
-    /// the first line or its number, counted from 1. The input must be text or CSV
-    #[arg(long, value_name = "COLUMN", conflicts_with_all = ["radii", "rescale", "sphere"])]
-    weights: Option<String>,
-    /// The same with the squares of a column of radii for weights
-    #[arg(long, value_name = "COLUMN", conflicts_with_all = ["rescale", "sphere"])]
-    radii: Option<String>,
+    #[command(flatten)]
+    weights: Weights,
     /// Make these segments edges: a text file with the indices of two points on each line, counted from 0. The rest is
     /// as Delaunay as they allow. Needs --dim 2
     #[arg(long, value_name = "FILE", conflicts_with_all = ["rescale", "sphere", "weights", "radii"])]
@@ -207,17 +203,8 @@ struct Read<const D: usize> {
 fn read_input<const D: usize>(arguments: &Arguments) -> Result<Read<D>, Failure> {
     let input = Input::new(&arguments.input, arguments.format)?;
     arguments.outputs.iter().try_for_each(|output| output.check(&[input.path()], arguments.force))?;
-    let _progress = Progress::new("reading");
-    let Some(column) = arguments.weights.as_ref().or(arguments.radii.as_ref()) else {
-        let cloud = read::<D>(&input)?;
-        return Ok(Read { input, cloud, weights: None });
-    };
-    let (cloud, mut weights) = input.read_with_values::<D>(column)?;
-    if arguments.radii.is_some() {
-        let squares = weights_of_radii(&weights);
-        weights = squares.map_err(|source| Failure::Points { path: input.path().into(), source })?;
-    }
-    Ok(Read { input, cloud, weights: Some(weights) })
+    let (cloud, weights) = arguments.weights.read::<D>(&input)?;
+    Ok(Read { input, cloud, weights })
 }
 
 fn run_with<M: Triangulation<D, N>, const D: usize, const N: usize>(

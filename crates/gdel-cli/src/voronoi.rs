@@ -5,6 +5,7 @@ use super::{
     dimension::{Triangulation, in_dimension, read},
     failure::Failure,
     sphere,
+    weights::Weights,
 };
 use clap::{Args, error::ErrorKind};
 use gdel::{
@@ -17,11 +18,13 @@ use gdel_io::{
 };
 use std::path::{Path, PathBuf};
 
-/// Compute the Voronoi cells of points.
+/// Compute the Voronoi cells of points, or the cells of the power diagram if they have weights.
 #[derive(Args)]
 pub(super) struct Arguments {
     #[command(flatten)]
     common: Common,
+    #[command(flatten)]
+    weights: Weights,
     /// What the cells are clipped to: `none`, the smallest `box` that contains all points, their convex
     /// `hull`, a box by its lowest and its highest coordinates (xmin,ymin,xmax,ymax or
     /// xmin,ymin,zmin,xmax,ymax,zmax), or a file with the corners of a convex polygon or polyhedron
@@ -95,11 +98,13 @@ fn run_in<M: Triangulation<D, N>, const D: usize, const N: usize>(arguments: &Ar
 where
     Euclidean: VoronoiShapes<D, N>,
 {
-    let Arguments { common, clip, output, .. } = arguments;
+    let Arguments { common, weights, clip, output, .. } = arguments;
     let (given, corners) = (clip.bounds::<D>()?, clip.corners::<D>()?);
-    let cloud = common.read_for::<D, _>(output)?;
+    let input = common.input()?;
+    common.check(output, &[input.path()])?;
+    let (cloud, weights) = weights.read::<D>(&input)?;
     let points = Points::from(&cloud);
-    let (_, result) = common.run::<M, D, N, _>(points, "voronoi", |mesh| {
+    let (_, result) = common.run_weighted::<M, D, N, _>((points, weights.as_deref()), "voronoi", |mesh| {
         let clip = match (clip, points.bounds()) {
             (ClipShape::Hull, _) => Clip::Hull,
             (ClipShape::Corners(_), _) => Clip::Convex(&corners),

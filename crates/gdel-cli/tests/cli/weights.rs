@@ -1,7 +1,7 @@
-//! `gdel triangulate` with weights.
+//! Commands with weights.
 
 use crate::{fails_with, folder, gdel, succeeds};
-use std::fs;
+use std::{fs, path::Path};
 
 /// A square, its middle, and a point near a corner. Names come from the first line.
 const SQUARE: &str = "x,y,w,r\n0,0,0,0\n4,0,0,0\n0,4,0,0\n4,4,9,3\n2,2,1,1\n3,3.5,0.25,0.5\n";
@@ -32,6 +32,20 @@ fn weights_and_radii() {
     fails_with(gdel(path, &["verify", "square.csv", "m.ele", "--dim", "2"]), "vertices");
 }
 
+/// The hull of points in a plane of space is their polygon, from both sides.
+#[test]
+fn flat_points_with_weights() {
+    let folder = folder();
+    let path = folder.path();
+    fs::write(path.join("flat.csv"), "x,y,z,w\n0,0,1,0\n4,0,1,0\n0,4,1,0\n4,4,1,9\n2,2,1,-9\n").unwrap();
+    succeeds(path, &["triangulate", "flat.csv", "--weights", "w", "-o", "flat.obj"]);
+    assert!(fs::read_to_string(path.join("flat.obj")).unwrap().lines().count() > 5);
+    succeeds(path, &["voronoi", "flat.csv", "--weights", "w", "--clip", "hull", "-o", "cells.csv"]);
+    let cells = fs::read_to_string(path.join("cells.csv")).unwrap();
+    let areas = cells.lines().skip(1).map(|line| line.split(',').nth(1).unwrap().parse::<f64>().unwrap());
+    assert!((areas.sum::<f64>() - 16.0).abs() < 1e-12, "{cells}");
+}
+
 #[test]
 fn bad_weights() {
     let folder = folder();
@@ -40,4 +54,57 @@ fn bad_weights() {
     fails_with(gdel(path, &["triangulate", "bad.csv", "--weights", "w"]), "weight 1 is not a finite number");
     fails_with(gdel(path, &["triangulate", "bad.csv", "--radii", "r"]), "radius 1 is not a number from 0 on");
     fails_with(gdel(path, &["triangulate", "bad.csv", "--weights", "mass"]), "mass");
+}
+
+/// The area of each cell, and its neighbours.
+fn cells(folder: &Path, arguments: &[&str]) -> Vec<(f64, String)> {
+    let fixed = ["voronoi", "square.csv", "--dim", "2", "--clip", "0,0,4,4", "-fo", "cells.csv"];
+    succeeds(folder, &[&fixed, arguments].concat());
+    let text = fs::read_to_string(folder.join("cells.csv")).unwrap();
+    let cell = |line: &str| {
+        let columns: Vec<&str> = line.split(',').collect();
+        (columns[1].parse().unwrap(), columns[4].to_owned())
+    };
+    text.lines().skip(1).map(cell).collect()
+}
+
+#[test]
+fn power_diagrams() {
+    let folder = folder();
+    let path = folder.path();
+    fs::write(path.join("square.csv"), SQUARE).unwrap();
+    let (weighted, plain) = (cells(path, &["--weights", "w"]), cells(path, &[]));
+    assert_eq!(weighted, cells(path, &["--radii", "r"]));
+    assert!(plain.iter().all(|(area, _)| *area > 0.0));
+    // The last point is hidden: it has no cell.
+    assert_eq!(weighted[5], (0.0, String::new()));
+    for cells in [&weighted, &plain] {
+        let sum: f64 = cells.iter().map(|(area, _)| area).sum();
+        assert!((sum - 16.0).abs() < 1e-12, "{sum}");
+    }
+    // The cell of the ball in a corner ends at the lines x + y = 4, x = 0.875 and y = 0.875.
+    assert!((weighted[3].0 - 8.0 + 0.875 * 0.875).abs() < 1e-12, "{weighted:?}");
+    assert!(weighted[3].0 > plain[3].0);
+    let text = succeeds(path, &["voronoi", "square.csv", "--dim", "2", "--weights", "w", "-o", "cells.vtu"]);
+    assert!(text.contains("points          6, 1 hidden"), "{text}");
+    let sphere = gdel(path, &["voronoi", "square.csv", "--sphere", "--weights", "w", "-fo", "cells.csv"]);
+    assert_eq!(sphere.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&sphere.stderr).contains("cannot be used with"));
+}
+
+#[test]
+fn the_least_power_distance() {
+    let folder = folder();
+    let path = folder.path();
+    fs::write(path.join("square.csv"), SQUARE).unwrap();
+    fs::write(path.join("queries.csv"), "x,y\n3,3.5\n2.5,2.5\n0.25,0.5\n9,9\n").unwrap();
+    let nearest = |arguments: &[&str]| {
+        let fixed = ["locate", "square.csv", "queries.csv", "--dim", "2", "-fo", "located.csv"];
+        succeeds(path, &[&fixed, arguments].concat());
+        let text = fs::read_to_string(path.join("located.csv")).unwrap();
+        text.lines().skip(1).map(|line| line.rsplit(',').next().unwrap().to_owned()).collect::<Vec<_>>()
+    };
+    assert_eq!(nearest(&[]), ["5", "4", "0", "3"]);
+    assert_eq!(nearest(&["--weights", "w"]), ["3", "3", "0", "3"]);
+    assert_eq!(nearest(&["--radii", "r"]), ["3", "3", "0", "3"]);
 }
