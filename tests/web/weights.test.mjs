@@ -59,6 +59,45 @@ for (const [key, { triangulate, generate, verify, arrays }] of Object.entries(DI
     assert.equal((await mesh.nearest(points)).length, 500);
   });
 
+  test(`${D}D: power diagrams and power distances`, async () => {
+    const points = await generate('uniform', 300, { seed: 6 });
+    const random = randomFrom(8);
+    const weights = Float64Array.from({ length: 300 }, () => 0.03 * random());
+    const mesh = await triangulate(points, { weights });
+    assert.ok(mesh.hidden.length > 10);
+    const power = (query, i) => {
+      let squared = -weights[i];
+      for (let axis = 0; axis < D; axis++) squared += (query[axis] - points[D * i + axis]) ** 2;
+      return squared;
+    };
+    const queries = await generate('uniform', 200, { seed: 7 });
+    const isHidden = new Set(mesh.hidden);
+    const nearest = await mesh.nearest(queries);
+    const { [simplices]: containing } = await mesh.locate(queries);
+    nearest.forEach((found, q) => {
+      const query = queries.subarray(D * q, D * q + D);
+      const distances = Array.from(weights, (_, i) =>
+        isHidden.has(i) ? Infinity : power(query, i),
+      );
+      assert.equal(found, distances.indexOf(Math.min(...distances)));
+      assert.ok(containing[q] < mesh[simplices].length / (D + 1));
+    });
+
+    const clip = [...Array(D).fill(0), ...Array(D).fill(1)];
+    const { volumes, neighbors, cells } = await mesh.voronoi({ clip });
+    assert.ok(Math.abs(volumes.reduce((sum, volume) => sum + volume) - 1) < 1e-12);
+    for (const i of mesh.hidden) assert.deepEqual([volumes[i], cells[i + 1] - cells[i]], [0, 0]);
+    assert.ok(neighbors.every((i) => !isHidden.has(i)));
+    const shares = new Float64Array(300);
+    const places = await generate('uniform', 20_000, { seed: 9 });
+    for (const i of await mesh.nearest(places)) shares[i] += 1 / 20_000;
+    shares.forEach((share, i) => {
+      assert.ok(Math.abs(share - volumes[i]) < 0.003, `${i}: ${share} ${volumes[i]}`);
+    });
+    const { vertexSimplex } = await mesh.topology();
+    assert.ok(mesh.hidden.every((i) => vertexSimplex[i] === -1));
+  });
+
   test(`${D}D: what needs a Delaunay triangulation says so`, async () => {
     const points = await generate('uniform', 100, { seed: 5 });
     const mesh = await triangulate(points, {
@@ -66,10 +105,12 @@ for (const [key, { triangulate, generate, verify, arrays }] of Object.entries(DI
     });
     const before = inOrder(mesh);
     const needs = /weighted points/;
-    await rejects(mesh.nearest(points), 'BAD_INPUT', needs);
-    await rejects(mesh.voronoi(), 'BAD_INPUT', needs);
+    const values = new Float64Array(100);
+    await rejects(mesh.interpolate(values, points), 'BAD_INPUT', needs);
+    await rejects(mesh.contours(values, [1]), 'BAD_INPUT', needs);
     await rejects(mesh.alphaShape(), 'BAD_INPUT', needs);
-    await rejects(mesh.locate(points), 'BAD_INPUT', needs);
+    await rejects(mesh.spanningTree(), 'BAD_INPUT', needs);
+    await rejects(mesh.surface(), 'BAD_INPUT', needs);
     await rejects(mesh.update(points), 'BAD_INPUT', needs);
     await rejects(mesh.insert(points), 'BAD_INPUT', needs);
     await rejects(mesh.remove([0]), 'BAD_INPUT', needs);
@@ -114,4 +155,5 @@ test('the heaviest of equal points stands for the others', async () => {
   assert.deepEqual([...mesh.duplicateOf], [-1, -1, -1, 4, -1, 4]);
   const flat = await delaunay3d([0, 0, 0, 1, 0, 0, 0, 1, 0], { weights: [0, 1, 2] });
   assert.deepEqual([flat.dimension, flat.hidden.length], [2, 0]);
+  assert.ok((await flat.toPLY()).length > 0);
 });

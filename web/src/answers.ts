@@ -344,8 +344,8 @@ export interface Geometry {
 /** The Voronoi diagram of the points of a mesh, as arrays. */
 export interface VoronoiArrays {
   /**
-   * The coordinates of the vertices: first the circumcentre of each simplex of the mesh, then those
-   * that clipping made.
+   * The coordinates of the vertices: first the circumcentre, with weights the power centre, of each
+   * simplex of the mesh, then those that clipping made.
    */
   readonly vertices: Doubles;
   /** Where the vertices of each facet start in `facets`; one more entry says where the last end. */
@@ -362,7 +362,7 @@ export interface VoronoiArrays {
   readonly areas: Doubles;
   /**
    * Where the facets of each point's cell start; one more entry says where the last end. Duplicates
-   * have none.
+   * and hidden points have none.
    */
   readonly cells: Indices;
   /** The volume of each point's cell, its area in 2D; infinite for unbounded cells, 0 for empty ones. */

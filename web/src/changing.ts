@@ -31,6 +31,7 @@ import type { Done, Edit, Task } from './protocol.js';
 import type { Update } from './run.js';
 import type { AccessorOptions, Points, Stats, TaskOptions, UpdateOptions } from './types.js';
 import { Updating } from './updating.js';
+import { checkUnweighted } from './weights.js';
 
 /** A mesh in typed arrays, of either dimension. */
 export abstract class Mesh extends Triangles {
@@ -45,8 +46,8 @@ export abstract class Mesh extends Triangles {
   declare readonly hidden: Indices;
   /**
    * The weights of the points, or null if the mesh is a Delaunay triangulation, which it is without
-   * weights, and if all are equal. What is derived from meshes, and their changes, need one, and else fail with
-   * `BAD_INPUT`.
+   * weights, and if all are equal. `locate`, `nearest`, `voronoi`, `topology` and `geometry` take
+   * both; what else is derived from meshes, and their changes, fail with `BAD_INPUT` with weights.
    */
   declare readonly weights: Doubles | null;
   /** By which the coordinates were multiplied, one per axis; null without the option `rescale`. */
@@ -86,6 +87,7 @@ export abstract class Mesh extends Triangles {
     edit?: Omit<Edit, 'before'>,
   ): Promise<Indices> {
     return this.#updating.run(async () => {
+      checkUnweighted(this);
       const { points: before, mesh } = this._source();
       const { hull, dimension, stats } = this;
       const moved = { ...mesh, hull, dimension };
@@ -165,7 +167,8 @@ export abstract class Mesh extends Triangles {
   /**
    * Returns the vertex that is nearest to each query point, exactly: of several at the same distance
    * the one with the lowest index; −1 if there are no points. With `k`, the `k` nearest ones, nearest
-   * first, and −1 where there are not so many.
+   * first, and −1 where there are not so many. With weights, distances are power distances,
+   * |x − p|² − *w*, and hidden points are never nearest.
    */
   async nearest(queries: Points, options?: NearestOptions): Promise<SignedIndices> {
     return nearest(this._source(), queries, options);

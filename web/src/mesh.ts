@@ -8,14 +8,21 @@ import type {
 } from './answers.js';
 import type { Bytes, Coordinates, Indices, SignedIndices } from './arrays.js';
 import { Mesh } from './changing.js';
-import { contours, locate, type Source, Surface3, surface, voronoi } from './derived.js';
+import {
+  alphaShape,
+  contours,
+  locate,
+  type Source,
+  Surface3,
+  surface,
+  voronoi,
+} from './derived.js';
 import { GdelError } from './errors.js';
 import type { TriangleFormat } from './files.js';
 import type { Done } from './protocol.js';
 import type { Update } from './run.js';
 import { write } from './tools.js';
 import type { Output, Points, TaskOptions, Trace } from './types.js';
-import { checkUnweighted } from './weights.js';
 
 /** Where points are in a 3D mesh. */
 export interface Locations3 {
@@ -112,9 +119,9 @@ export class Mesh3 extends Mesh {
   }
 
   /**
-   * Returns the Voronoi diagram of the vertices. The cells of coplanar points are polygons in their plane,
-   * with edges as facets, and those of collinear points segments, with ends as facets, unless they are
-   * clipped to a box that has an inside.
+   * Returns the Voronoi diagram of the vertices, with weights their power diagram. The cells of
+   * coplanar points are polygons in their plane, with edges as facets, and those of collinear
+   * points segments, with ends as facets, unless they are clipped to a box that has an inside.
    */
   async voronoi(options?: VoronoiOptions): Promise<VoronoiArrays> {
     return voronoi(this._source(), options);
@@ -162,17 +169,24 @@ export class Mesh3 extends Mesh {
 
   /** @internal */
   _source(): Source {
-    checkUnweighted(this);
     this.#check(['neighbors', 'duplicateOf'], 'this needs');
     const { tetrahedra, neighbors, duplicateOf, points, factors } = this;
-    return { dimension: 3, points, factors, mesh: { tetrahedra, neighbors, duplicateOf } };
+    const weights = this.weights ?? undefined;
+    return { dimension: 3, points, factors, mesh: { tetrahedra, neighbors, duplicateOf, weights } };
   }
 
   /** @internal */
   async _write(format: TriangleFormat, options: TaskOptions | undefined): Promise<Bytes> {
     const isFlat = this.dimension === 2;
-    const hull = isFlat ? (await this.alphaShape({ alpha: Infinity })).surface : this.hull;
+    const hull = isFlat ? await this.#polygon() : this.hull;
     return (await this.#files(format, ['hull'], options, hull))[format]!;
+  }
+
+  /** Returns the convex hull of points in a plane from both sides, which weights do not change. */
+  async #polygon(): Promise<Indices> {
+    const { mesh, ...source } = this._source();
+    const plain = { ...source, mesh: { ...mesh, weights: undefined } };
+    return (await alphaShape(plain, { alpha: Infinity })).surface;
   }
 
   /** Copies only what the format needs to the writer. */

@@ -103,8 +103,9 @@ export class Mesh2 extends Mesh {
   }
 
   /**
-   * Returns the Voronoi diagram of the vertices. The cells of collinear points are segments of their line,
-   * unless they are clipped to a box that has an inside.
+   * Returns the Voronoi diagram of the vertices, with weights their power diagram. The cells of
+   * collinear points are segments of their line, unless they are clipped to a box that has an
+   * inside.
    */
   async voronoi(options?: VoronoiOptions): Promise<Voronoi2> {
     const arrays = await voronoi(this._source(), options);
@@ -114,8 +115,9 @@ export class Mesh2 extends Mesh {
 
   /**
    * Returns the vertex that is nearest to the point (x, y), exactly, at once and in the calling
-   * thread: of several at the same distance the one with the lowest index, −1 if there are no points
-   * or a coordinate is not finite. Works for collinear points, too.
+   * thread: of several at the same distance the one with the lowest index, −1 if there are no
+   * points or a coordinate is not finite. Works for collinear points, too, but not with weights:
+   * {@link nearest} does.
    *
    * @param start A point near it, where the search begins.
    */
@@ -171,9 +173,9 @@ export class Mesh2 extends Mesh {
 
   /** @internal */
   _source(): Source {
-    checkUnweighted(this);
     const { triangles, halfedges, duplicateOf, coords: points, factors } = this;
-    return { dimension: 2, points, factors, mesh: { triangles, halfedges, duplicateOf } };
+    const weights = this.weights ?? undefined;
+    return { dimension: 2, points, factors, mesh: { triangles, halfedges, duplicateOf, weights } };
   }
 
   #ringsNow(): Rings {

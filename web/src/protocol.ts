@@ -50,6 +50,8 @@ export interface DerivedMesh {
   triangles?: Indices;
   halfedges?: SignedIndices;
   duplicateOf: SignedIndices;
+  /** Without them it is the Delaunay triangulation. */
+  weights?: Doubles | undefined;
 }
 
 interface DerivedArgs {

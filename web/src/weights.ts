@@ -33,7 +33,7 @@ export function weightsOf(
   return areRadii ? values.map((r) => r * r) : values;
 }
 
-/** Checks that a mesh is a Delaunay triangulation, as what is derived from it needs. */
+/** Checks that a mesh is a Delaunay triangulation, as its changes need. */
 export function checkUnweighted({ weights }: { weights: Doubles | null }): void {
   if (weights)
     throw new GdelError('BAD_INPUT', 'this is not possible with a mesh of weighted points');

@@ -84,6 +84,7 @@ impl OfCaller<3, 4> for Mesh3 {
         mesh.tetrahedra = caller.simplices;
         mesh.neighbors = caller.neighbors.unwrap_or_default();
         mesh.duplicate_of = caller.duplicate_of.unwrap_or_default();
+        mesh.weights = caller.weights.unwrap_or_default();
         Ok(mesh)
     }
 
@@ -123,6 +124,7 @@ impl OfCaller<2, 3> for Mesh2 {
         mesh.triangles = caller.simplices;
         mesh.halfedges = caller.neighbors.unwrap_or_default();
         mesh.duplicate_of = caller.duplicate_of.unwrap_or_default();
+        mesh.weights = caller.weights.unwrap_or_default();
         Ok(mesh)
     }
 

@@ -18,7 +18,7 @@ use crate::{
 /// `None` stands for what the caller did not state.
 #[cfg_attr(
     not(any(feature = "edit", feature = "tools")),
-    expect(dead_code, reason = "the hull, the dimension and weights are for files, proofs and edits")
+    expect(dead_code, reason = "the hull, the dimension and hidden points are for files, proofs and edits")
 )]
 pub(crate) struct CallerMesh<const N: usize, const H: usize> {
     pub(crate) simplices: Vec<[u32; N]>,
