@@ -149,7 +149,7 @@ where
         let interpolator = Interpolator::new(data.locator(points)?, values)?.duplicates(duplicates)?;
         Ok(interpolator.gradients().to_vec())
     })?;
-    Ok(arrays::rows(py, found))
+    arrays::rows(py, found)
 }
 
 /// Returns the interpolated value at each query; `gradients`, if given, are those of the values.
