@@ -55,8 +55,8 @@ pub const KNOWN_ANSWERS: [KnownAnswer; 2] = [
 pub const UNIFORM: KnownAnswer = KnownAnswer {
     name: "uniform",
     shape: Shape::Uniform,
-    count: 12_000,
-    answers: [0x7209_cd43_eb38_dcb2, 0xf022_8d17_80ae_befd],
+    count: 30_000,
+    answers: [0x349c_c276_aa99_7d97, 0x7329_59ab_1ab4_2ff7],
 };
 
 /// The points along an axis of the grid.

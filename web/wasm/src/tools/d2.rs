@@ -55,6 +55,8 @@ pub fn verify2d(points: &JsValue, mesh: &JsValue) -> Result<JsValue, Thrown> {
     view.dimension = mesh.dimension;
     view.weights = mesh.weights.as_deref();
     view.hidden = mesh.hidden.as_deref();
+    // So far, meshes have no constraints here.
+    view.constraints = Some(&[]);
     // Delaunator's triangles are counter-clockwise where y points down. Without triangles, `hull`
     // is the collinear points in order, which has no orientation.
     if !mesh.simplices.is_empty() {
