@@ -10,6 +10,9 @@ use crate::{
 /// The number of queries that is worth handing to another thread.
 const GRAIN: usize = 1 << 11;
 
+/// How many times as long as along the curve the way through queries may be as they are given.
+const MOST_DETOUR: f64 = 4.0;
+
 /// Maps points to their places along the Hilbert curve that fills a box.
 ///
 /// The cell of a coordinate *x* is ⌊x·2ᵏ⌋ less that of the box, with the largest *k* for which all
@@ -51,6 +54,12 @@ impl<const D: usize> CurveKey<D> {
         (<Euclidean as Geometry<D, N>>::CURVE)(cell, Self::BITS) as u32
     }
 
+    /// Returns about how far two points are from each other, as a share of the box: at most 1.
+    fn distance(&self, p: [f64; D], q: [f64; D]) -> f64 {
+        let cells = (0..D).map(|axis| ((p[axis] - q[axis]) * self.factors[axis]).abs());
+        cells.fold(0.0, f64::max).min(f64::from(Self::CELLS)) / f64::from(Self::CELLS)
+    }
+
     /// Returns *k* of each axis, and ⌊x·2ᵏ⌋ of the lowest coordinates modulo 2⁶⁴.
     #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
     pub(crate) fn cells(&self) -> [(i32, u64); D] {
@@ -86,9 +95,9 @@ fn floor_product(x: f64, factor: f64) -> f64 {
     if product == 0.0 && x < 0.0 { -1.0 } else { product.floor() }
 }
 
-/// Calls `work` with runs of queries that are consecutive along the curve, and returns the results,
-/// of which there is one for each query of a run, in the order of the queries. The results must not
-/// depend on where runs begin.
+/// Calls `work` with runs of queries of which consecutive ones are near each other, and returns the results, of which
+/// there is one for each query of a run, in the order of the queries. The results must not depend on which queries are
+/// in a run, and in which order.
 pub(crate) fn map_along_curve<const D: usize, const N: usize, R: Copy + Send>(
     queries: Points<'_, D>,
     key: CurveKey<D>,
@@ -107,8 +116,8 @@ where
     Ok(sorted)
 }
 
-/// Calls `work` with runs of queries that are consecutive along the curve. Returns the queries in their order
-/// along it, and the result of each run.
+/// Calls `work` with runs of queries that are consecutive along the curve, or as they are given, if that is about as
+/// short a way: along the rows of a raster, for example. Returns the queries in this order, and the result of each run.
 pub(super) fn along_curve<const D: usize, const N: usize, R: Send>(
     queries: Points<'_, D>,
     key: CurveKey<D>,
@@ -121,7 +130,11 @@ where
     if queries.len() > u32::MAX as usize {
         return Err(Error::TooManyPoints { points: queries.len(), limit: u32::MAX as usize });
     }
-    let order = order_along_curve(queries, key);
+    let order = if is_ordered(queries, key) {
+        (0..queries.len() as u32).collect()
+    } else {
+        order_along_curve(queries, key)
+    };
     let results = parallel::map_grains(Threads::All, order.len(), GRAIN, |range| {
         let mut run = Vec::with_capacity(GRAIN.min(range.len()));
         let parts = order[range].chunks(GRAIN).map(|part| {
@@ -133,6 +146,17 @@ where
     });
     let results = results.into_iter().collect::<Result<Vec<Vec<R>>, Error>>()?;
     Ok((order, results.into_iter().flatten().collect()))
+}
+
+/// Returns whether the way from query to query, as they are given, is not much longer than along the curve.
+fn is_ordered<const D: usize>(queries: Points<'_, D>, key: CurveKey<D>) -> bool {
+    let parts = parallel::map_ranges(Threads::All, queries.len(), |range| {
+        let steps = range.start.max(1)..range.end;
+        steps.map(|i| key.distance(queries.get(i - 1), queries.get(i))).sum::<f64>()
+    });
+    // Along the curve, all n queries are in steps of 1/n of the volume; along rows, each row is gone through twice.
+    let along_curve = libm::pow(queries.len() as f64, 1.0 - 1.0 / D as f64);
+    parts.into_iter().sum::<f64>() <= MOST_DETOUR * along_curve
 }
 
 /// Returns the indices of points in their order along the curve. There are at most 2³² points.

@@ -40,6 +40,7 @@ use std::{
 /// Exact 3D and 2D Delaunay triangulation of point clouds.
 #[derive(Parser)]
 #[command(
+    name = "gdel",
     version,
     about = "Exact 3D and 2D Delaunay triangulation of point clouds",
     after_help = "Exit codes: 0 done, 1 bad input or output, 2 wrong usage."

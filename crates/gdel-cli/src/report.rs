@@ -66,7 +66,11 @@ impl fmt::Display for ConstraintCounts {
             write!(f, ", {} of them without a length", self.zero_length)?;
         }
         if self.added_points > 0 {
-            write!(f, ", {} points at crossings, up to {:e} from them", self.added_points, self.moved)?;
+            write!(f, "; points at crossings: {}, ", self.added_points)?;
+            match self.moved {
+                0.0 => write!(f, "exactly there")?,
+                moved => write!(f, "at most {moved:e} from there")?,
+            }
         }
         writeln!(f, "\ninside          {} triangles", self.inside_triangles)
     }

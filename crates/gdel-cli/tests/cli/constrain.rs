@@ -48,7 +48,7 @@ fn crossings_get_points() {
     let run = ["triangulate", "points.csv", "--dim", "2", "--edges", "edges.txt", "--split", "--verify", "-o", "m.ele"];
     let text = succeeds(path, &run);
     assert!(
-        text.contains("constraints     4 edges of 2 segments, 1 points at crossings, up to 0e0 from them\n"),
+        text.contains("constraints     4 edges of 2 segments; points at crossings: 1, exactly there\n"),
         "{text}"
     );
     let points = fs::read_to_string(path.join("m.node")).unwrap();
