@@ -21,11 +21,12 @@ use crate::{
 /// How the points of a test lie.
 #[derive(Debug, Clone, Copy)]
 enum Shape {
-    /// Uniform in a cube, on the wide lattice; the last [`ON_SPHERE`] ones on the unit sphere beside it, where only exact
-    /// arithmetic decides.
+    /// Uniform in the unit cube, on the wide lattice.
     Uniform,
     /// On a small grid, with ties and duplicates, on the narrow lattice.
     Grid,
+    /// Near the unit sphere, where only exact arithmetic decides.
+    Sphere,
 }
 
 /// An input, and what its mesh is known to be.
@@ -39,14 +40,20 @@ pub struct KnownAnswer {
     answers: [u64; 2],
 }
 
-/// The tests: one for ties on the narrow lattice, and one for the wide one, so large that lists fill several workgroups.
-/// The host waits for the device some fifteen times in each, which takes longer in browsers than what the device does.
-pub const KNOWN_ANSWERS: [KnownAnswer; 2] = [
+/// The tests: one for ties on the narrow lattice, one for exact arithmetic on the wide one, and one so large that
+/// lists fill several workgroups.
+pub const KNOWN_ANSWERS: [KnownAnswer; 3] = [
     KnownAnswer {
         name: "grid",
         shape: Shape::Grid,
         count: 1_000,
         answers: [0xa30d_6e1a_f134_4004, 0x04a1_ed6b_cd3d_933d],
+    },
+    KnownAnswer {
+        name: "sphere",
+        shape: Shape::Sphere,
+        count: 400,
+        answers: [0x1733_69c5_2cc7_2c7c, 0xc47a_91b8_953a_416e],
     },
     UNIFORM,
 ];
@@ -56,28 +63,22 @@ pub const UNIFORM: KnownAnswer = KnownAnswer {
     name: "uniform",
     shape: Shape::Uniform,
     count: 30_000,
-    answers: [0x349c_c276_aa99_7d97, 0x7329_59ab_1ab4_2ff7],
+    answers: [0x23a7_46ad_a0b6_f6de, 0xa100_7ee8_ec16_c7ed],
 };
 
 /// The points along an axis of the grid.
 const SIDE: u64 = 12;
 
-/// How many points of the largest test are on a sphere.
-const ON_SPHERE: usize = 400;
-
-/// Where its cube begins along every axis, so that it is beside the sphere.
-const BESIDE: f64 = 2.0;
-
 impl KnownAnswer {
     /// Returns the points.
     pub fn points<const D: usize>(&self) -> Vec<[f64; D]> {
         let mut random = Random::new(self.count as u64);
-        let point = |i| match self.shape {
+        let point = || match self.shape {
+            Shape::Uniform => random.in_cube(),
             Shape::Grid => random.on_grid(SIDE),
-            Shape::Uniform if i < self.count - ON_SPHERE => random.in_cube().map(|x| x + BESIDE),
-            Shape::Uniform => random.on_sphere(),
+            Shape::Sphere => random.on_sphere(),
         };
-        (0..self.count).map(point).collect()
+        std::iter::repeat_with(point).take(self.count).collect()
     }
 
     /// Returns the fingerprint of the mesh in `D` dimensions.
