@@ -345,7 +345,9 @@ impl<'a> Complex<'a> {
 
     /// Checks the constrained edges, and that they are what the segments are made of.
     fn check_constraints(&self, input: &Input<2>, constraints: &[[u32; 2]], segments: Option<&[[u32; 2]]>) -> Findings {
-        let mut findings = if self.triangles.is_empty() {
+        let mut findings = if constraints.is_empty() {
+            Findings::default()
+        } else if self.triangles.is_empty() {
             // Collinear points have an order.
             let line = input.distinct_in_order();
             constraints::check_edges(constraints, line.windows(2).map(|pair| [pair[0], pair[1]]))

@@ -130,11 +130,8 @@ where
     if queries.len() > u32::MAX as usize {
         return Err(Error::TooManyPoints { points: queries.len(), limit: u32::MAX as usize });
     }
-    let order = if is_ordered(queries, key) {
-        (0..queries.len() as u32).collect()
-    } else {
-        order_along_curve(queries, key)
-    };
+    let order =
+        if is_ordered(queries, key) { (0..queries.len() as u32).collect() } else { order_along_curve(queries, key) };
     let results = parallel::map_grains(Threads::All, order.len(), GRAIN, |range| {
         let mut run = Vec::with_capacity(GRAIN.min(range.len()));
         let parts = order[range].chunks(GRAIN).map(|part| {

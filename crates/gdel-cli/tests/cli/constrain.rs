@@ -47,10 +47,7 @@ fn crossings_get_points() {
     fs::write(path.join("edges.txt"), "0 2\n1 3\n").unwrap();
     let run = ["triangulate", "points.csv", "--dim", "2", "--edges", "edges.txt", "--split", "--verify", "-o", "m.ele"];
     let text = succeeds(path, &run);
-    assert!(
-        text.contains("constraints     4 edges of 2 segments; points at crossings: 1, exactly there\n"),
-        "{text}"
-    );
+    assert!(text.contains("constraints     4 edges of 2 segments; points at crossings: 1, exactly there\n"), "{text}");
     let points = fs::read_to_string(path.join("m.node")).unwrap();
     assert!(points.starts_with("5 2 0 0\n") && points.contains("\n4 1.5 1.5\n"), "{points}");
 }
