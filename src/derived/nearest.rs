@@ -15,6 +15,7 @@ use crate::{
     geometry::{Euclidean, Geometry, Power},
     input::points::Points,
     mesh::Csr,
+    predicates::Sign,
 };
 use rustc_hash::FxHashSet;
 use std::{cmp::Ordering, collections::BinaryHeap};
@@ -135,43 +136,67 @@ where
 
     /// Walks from a vertex to the one nearest to a query.
     pub(super) fn nearest_from(&self, neighbors: &Csr, query: [f64; D], start: u32) -> u32 {
-        let (mut best, mut least) = (start, self.power(query, start));
-        loop {
-            let at = best;
-            let mut is_tied = false;
-            for &v in neighbors.of(at) {
-                let power = self.power(query, v);
-                let order = power.compare(&least, query);
-                is_tied |= order == 0;
-                if order < 0 {
-                    (best, least) = (v, power);
-                    is_tied = false;
-                }
-            }
-            if best == at {
-                let all = || self.all_nearest(neighbors, query, best).into_iter().min();
-                return if is_tied { all().unwrap_or(best) } else { best };
-            }
-        }
+        let neighbors = |v| neighbors.of(v).iter().copied();
+        walk(start, neighbors, |v| self.power(query, v), |a, b| a.compare(b, query))
     }
 
     /// Returns all vertices that are as near to a query as `v`, which is nearest.
-    #[inline(never)]
     pub(super) fn all_nearest(&self, neighbors: &Csr, query: [f64; D], v: u32) -> Vec<u32> {
-        let least = self.power(query, v);
-        let mut tied = vec![v];
-        let mut seen = FxHashSet::from_iter([v]);
-        let mut next = 0;
-        while let Some(&v) = tied.get(next) {
-            next += 1;
-            for &w in neighbors.of(v) {
-                if self.power(query, w).compare(&least, query) == 0 && seen.insert(w) {
-                    tied.push(w);
-                }
+        let neighbors = |v| neighbors.of(v).iter().copied();
+        tied(v, neighbors, |v| self.power(query, v), |a, b| a.compare(b, query))
+    }
+}
+
+/// Walks from a vertex to the nearest one, of several that with the lowest index, by the neighbours of a vertex, its
+/// distance, and the sign of the difference of two distances.
+#[inline]
+pub(super) fn walk<T, I: Iterator<Item = u32>>(
+    start: u32,
+    neighbors: impl Fn(u32) -> I,
+    distance: impl Fn(u32) -> T,
+    compare: impl Fn(&T, &T) -> Sign,
+) -> u32 {
+    let (mut best, mut least) = (start, distance(start));
+    loop {
+        let at = best;
+        let mut is_tied = false;
+        for v in neighbors(at) {
+            let other = distance(v);
+            let order = compare(&other, &least);
+            is_tied |= order == 0;
+            if order < 0 {
+                (best, least) = (v, other);
+                is_tied = false;
             }
         }
-        tied
+        if best == at {
+            let all = || tied(best, neighbors, distance, compare).into_iter().min();
+            return if is_tied { all().unwrap_or(best) } else { best };
+        }
     }
+}
+
+/// Returns all vertices that are as near as `v`, which is nearest: they hang together.
+#[inline(never)]
+fn tied<T, I: Iterator<Item = u32>>(
+    v: u32,
+    neighbors: impl Fn(u32) -> I,
+    distance: impl Fn(u32) -> T,
+    compare: impl Fn(&T, &T) -> Sign,
+) -> Vec<u32> {
+    let least = distance(v);
+    let mut tied = vec![v];
+    let mut seen = FxHashSet::from_iter([v]);
+    let mut next = 0;
+    while let Some(&v) = tied.get(next) {
+        next += 1;
+        for w in neighbors(v) {
+            if compare(&distance(w), &least) == 0 && seen.insert(w) {
+                tied.push(w);
+            }
+        }
+    }
+    tied
 }
 
 /// A vertex on the way to the nearest ones: the greatest is the nearest, with the lowest index.

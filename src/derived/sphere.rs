@@ -4,6 +4,7 @@
 use super::{
     Interpolated,
     complex::Complex,
+    nearest::walk,
     queries::{CurveKey, map_along_curve},
 };
 use crate::{
@@ -14,7 +15,7 @@ use crate::{
     mesh::{Csr, Mesh},
     predicates::{Sign, orient3d},
 };
-use rustc_hash::{FxHashMap, FxHashSet};
+use rustc_hash::FxHashMap;
 use std::f64::consts::PI;
 
 /// By how much coordinates on the unit sphere are taken to be off: a few roundings.
@@ -394,40 +395,15 @@ impl<'a> Sphere<'a> {
         compare_distances(query, p, q)
     }
 
-    /// Walks to the nearest vertex, of several the one with the lowest index: every other one has a
-    /// neighbour that is nearer, and those that are as near as each other hang together.
+    /// Walks to the nearest vertex, of several the one with the lowest index.
     fn nearest_from(&self, start: u32, query: [f64; 3]) -> u32 {
-        let mut best = start;
-        loop {
-            let mut is_tied = false;
-            let at = best;
-            for w in self.neighbors_of(at).filter(|&w| w != at) {
-                match self.compare(query, w, best) {
-                    -1 => (best, is_tied) = (w, false),
-                    sign => is_tied |= sign == 0 && w != best,
-                }
-            }
-            if best == at {
-                return if is_tied { self.lowest_tied(at, query) } else { at };
-            }
-        }
+        let neighbors = |v| self.neighbors_of(v).filter(move |&w| w != v);
+        walk(start, neighbors, |v| self.points.get(v as usize), |&p, &q| compare_distances(query, p, q))
     }
 
     /// Returns the vertices that vertex `v` has an edge to.
     fn neighbors_of(&self, v: u32) -> impl Iterator<Item = u32> + '_ {
         self.around.of(v).iter().map(move |&t| before(self.triangles[t as usize], v))
-    }
-
-    /// Returns the lowest of the vertices that are as near to a query as vertex `v`, which is nearest.
-    fn lowest_tied(&self, v: u32, query: [f64; 3]) -> u32 {
-        let mut tied = vec![v];
-        let mut seen = FxHashSet::from_iter([v]);
-        let mut next = 0;
-        while let Some(&at) = tied.get(next) {
-            next += 1;
-            tied.extend(self.neighbors_of(at).filter(|&w| self.compare(query, w, v) == 0 && seen.insert(w)));
-        }
-        tied.into_iter().min().unwrap_or(v)
     }
 
     /// Returns the triangle that contains each query; `None` for those outside the spherical convex hull
