@@ -88,6 +88,7 @@ pub mod gpu {
         AdapterChoice, Binding, Compiler, Gpu, Kernel, MAX_WORKGROUPS, Parts, Profiler, Readback, Recorder, Storage,
         adapters, workgroups,
     };
+    pub use crate::platform::gpu::wait;
     pub mod device_mesh {
         pub use crate::gpu::device_mesh::{DeviceArrays, MeshArrays};
     }

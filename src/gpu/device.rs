@@ -306,11 +306,12 @@ impl<'a> ErrorScope<'a> {
     }
 
     /// Closes the scope. The report says what went wrong, as [`Gpu::with_error_scope`] does.
-    pub(crate) fn close(self) -> platform::gpu::Report<'a> {
+    pub(crate) fn close(self) -> platform::gpu::Report {
         let ErrorScope { gpu, what, guards: [a, b, c] } = self;
+        let gpu = gpu.clone();
         // The scopes are a stack.
         let [c, b, a] = [c, b, a].map(wgpu::ErrorScopeGuard::pop);
-        Box::pin(async move {
+        platform::gpu::report(async move {
             // A resource for which memory is lacking is also reported as invalid.
             let [a, b, c] = [a.await, b.await, c.await];
             if let Some(report) = c.or(a).or(b) {

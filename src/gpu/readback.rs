@@ -114,19 +114,19 @@ impl<T: Pod> Source for Storage<T> {
 /// Reads buffers from their starts, each as far as its target goes. They come in pieces: one is copied
 /// out of its staging buffer while others are on their way.
 #[must_use = "what is on its way has to be taken"]
-pub(crate) struct Reading<'a, S, T> {
+pub(crate) struct Reading<S, T> {
     reads: Vec<(S, T)>,
     pace: Pace,
     /// The read that the next piece belongs to, and the start of the piece there.
     next: (usize, u64),
     /// The pieces that are on their way.
-    ahead: VecDeque<Piece<'a>>,
+    ahead: VecDeque<Piece>,
 }
 
 /// A piece that is on its way.
-struct Piece<'a> {
+struct Piece {
     /// Awaited with the piece, because the answer of an error scope takes a while in browsers.
-    report: Report<'a>,
+    report: Report,
     submission: wgpu::SubmissionIndex,
     staged: Staged,
     read: usize,
@@ -134,7 +134,7 @@ struct Piece<'a> {
     len: u64,
 }
 
-impl<'a, S: Source, T: Target> Reading<'a, S, T> {
+impl<S: Source, T: Target> Reading<S, T> {
     /// Creates the reading of each source into its target.
     pub(crate) fn new(reads: Vec<(S, T)>, pace: Pace) -> Self {
         Reading { reads, pace, next: (0, 0), ahead: VecDeque::new() }
@@ -142,7 +142,7 @@ impl<'a, S: Source, T: Target> Reading<'a, S, T> {
 
     /// Sends pieces on their way until there are as many as the pace allows. Returns how many these are, each in a
     /// submission of its own.
-    pub(crate) fn send(&mut self, gpu: &'a Gpu, readback: &mut Readback) -> usize {
+    pub(crate) fn send(&mut self, gpu: &Gpu, readback: &mut Readback) -> usize {
         let mut sent = 0;
         while self.ahead.len() < self.pace.ahead
             && let Some((read, start, len)) = self.next_piece(self.pace.piece)
@@ -326,7 +326,7 @@ impl Readback {
     pub(crate) async fn take<S: Source, T: Target>(
         &mut self,
         gpu: &Gpu,
-        reading: &mut Reading<'_, S, T>,
+        reading: &mut Reading<S, T>,
     ) -> Result<bool, Error> {
         let Some(Piece { report, submission, staged, read, start, len }) = reading.ahead.pop_front() else {
             return Ok(false);
@@ -440,10 +440,20 @@ impl Readback {
 async fn arrived(
     gpu: &Gpu,
     submission: &wgpu::SubmissionIndex,
-    Staged { staging, bytes, mapped }: Staged,
+    Staged { staging, bytes, mut mapped }: Staged,
 ) -> Result<(wgpu::Buffer, wgpu::BufferView), Error> {
-    platform::gpu::wait(gpu.device(), gpu.adapter().software, submission).map_err(|e| gpu.failure(&e.to_string()))?;
-    match mapped.await {
+    let mut early = None;
+    let is_mapped = || {
+        early = mapped.try_recv().transpose();
+        early.is_some()
+    };
+    let waited = platform::gpu::wait(gpu.device(), gpu.adapter().software, submission, is_mapped);
+    waited.map_err(|e| gpu.failure(&e.to_string()))?;
+    let mapped = match early {
+        Some(mapped) => mapped,
+        None => mapped.await,
+    };
+    match mapped {
         Ok(Ok(())) => {}
         Ok(Err(e)) => return Err(gpu.failure(&e.to_string())),
         Err(oneshot::Canceled) => return Err(gpu.failure("a readback was never carried out")),

@@ -41,5 +41,6 @@ mod mutants;
 mod points;
 mod primitives;
 mod queries;
+mod readbacks;
 mod self_test;
 mod shaders;

@@ -9,14 +9,19 @@ use crate::{
 };
 use std::{
     cell::RefCell,
+    future::{Ready, ready},
     num::NonZero,
-    pin::Pin,
     thread::JoinHandle,
     time::{Duration, Instant},
 };
 
 /// What an error scope reports.
-pub(crate) type Report<'a> = Pin<Box<dyn Future<Output = Result<(), Error>> + Send + 'a>>;
+pub(crate) type Report = Ready<Result<(), Error>>;
+
+/// Returns what `report` yields, which native devices have at once.
+pub(crate) fn report(report: impl Future<Output = Result<(), Error>>) -> Report {
+    ready(pollster::block_on(report))
+}
 
 /// The bytes of a piece of a large array that is read: so many that its submission costs nothing, and so few that copying
 /// out of it begins while most pieces are still to come.
@@ -32,26 +37,28 @@ const PART: usize = 1 << 12;
 /// 0.1 ms.
 const SPIN: Duration = Duration::from_micros(300);
 
-/// Waits until the device has carried out `submission`. A software device needs the processors itself, so the host does
-/// not poll it.
+/// Waits until the device has carried out `submission`, after which `is_done`, as a rule. A software device needs the
+/// processors itself, so the host does not poll it.
 ///
 /// # Errors
 ///
 /// Returns what [`wgpu::Device::poll`] returns.
-pub(crate) fn wait(
+pub fn wait(
     device: &wgpu::Device,
     is_software: bool,
     submission: &wgpu::SubmissionIndex,
+    mut is_done: impl FnMut() -> bool,
 ) -> Result<(), wgpu::PollError> {
     let began = Instant::now();
-    loop {
-        let timeout = (!is_software && began.elapsed() < SPIN).then_some(Duration::ZERO);
-        let wait = wgpu::PollType::Wait { submission_index: Some(submission.clone()), timeout };
-        match device.poll(wait) {
-            Err(wgpu::PollError::Timeout) if timeout.is_some() => std::hint::spin_loop(),
-            done => return done.map(drop),
+    while !is_software && began.elapsed() < SPIN {
+        // Not for the submission with a timeout: wgpu 30 panics if it passes while another thread sees the queue empty.
+        device.poll(wgpu::PollType::Poll)?;
+        if is_done() {
+            return Ok(());
         }
+        std::hint::spin_loop();
     }
+    device.poll(wgpu::PollType::Wait { submission_index: Some(submission.clone()), timeout: None }).map(drop)
 }
 
 /// Copies the first bytes of a mapped buffer. Threads share the work where there is much, because fresh memory costs page

@@ -5,7 +5,12 @@ use futures_channel::oneshot;
 use std::pin::Pin;
 
 /// What an error scope reports.
-pub(crate) type Report<'a> = Pin<Box<dyn Future<Output = Result<(), Error>> + 'a>>;
+pub(crate) type Report = Pin<Box<dyn Future<Output = Result<(), Error>>>>;
+
+/// Returns `report`, which takes browsers a while.
+pub(crate) fn report(report: impl Future<Output = Result<(), Error>> + 'static) -> Report {
+    Box::pin(report)
+}
 
 /// The bytes of a piece of a large array that is read: so few that a copy never holds up the calling thread for long.
 pub(crate) const PIECE: u64 = 8 << 20;
@@ -15,7 +20,12 @@ pub(crate) const PIECE: u64 = 8 << 20;
 /// # Errors
 ///
 /// Returns none.
-pub(crate) fn wait(_: &wgpu::Device, _: bool, _: &wgpu::SubmissionIndex) -> Result<(), wgpu::PollError> {
+pub fn wait(
+    _: &wgpu::Device,
+    _: bool,
+    _: &wgpu::SubmissionIndex,
+    _: impl FnMut() -> bool,
+) -> Result<(), wgpu::PollError> {
     Ok(())
 }
 
