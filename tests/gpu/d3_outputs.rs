@@ -90,7 +90,7 @@ fn run(gpu: &Gpu, stage: &OutputStage, slots: &Slots) -> Result<DeviceArrays, Er
         numbers: &numbers,
         params: slots.params,
     };
-    let MadeArrays { arrays, hull, .. } = block_on(stage.run(gpu, &mut Readback::default(), mesh, &[], true))?;
+    let MadeArrays { arrays, hull, .. } = block_on(stage.run(gpu, &mut Readback::default(), |_| (), mesh, &[], true))?;
     assert_eq!(hull.as_flattened(), block_on(Readback::default().read(gpu, &arrays.hull, 0, arrays.hull.len()))?);
     Ok(arrays)
 }

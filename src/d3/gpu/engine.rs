@@ -87,17 +87,18 @@ async fn complete_resident<H: Host<3>>(
             return Ok(Err(fallback));
         }
     };
-    if let Err(error) = device.patch(&patch).await {
-        stats.gpu = Some(device.ended.release().summary(adapter));
-        return match error {
-            Error::TooManySimplices { .. } => Ok(Err(Fallback::GpuFailed(error))),
-            _ => Err(error),
-        };
-    }
     stats.phases.push((Phase::Splay, stopwatch.lap()));
 
     options.report(Phase::Finish, progress::FINISH)?;
-    let MadeArrays { arrays, hull, samples, .. } = device.outputs(&patch, &duplicate_of, moved.is_some()).await?;
+    let made = device.outputs(&patch, &duplicate_of, moved.is_some()).await;
+    let MadeArrays { arrays, hull, samples, .. } = match made {
+        Ok(made) => made,
+        Err(error @ Error::TooManySimplices { .. }) => {
+            stats.gpu = Some(device.ended.release().summary(adapter));
+            return Ok(Err(Fallback::GpuFailed(error)));
+        }
+        Err(error) => return Err(error),
+    };
     let gpu = device.ended.gpu;
     let readback = device.ended.kernels.readback.clone();
     stats.gpu = Some(device.ended.release().summary(adapter));

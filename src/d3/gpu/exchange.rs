@@ -224,44 +224,12 @@ impl<'a> ResidentRun<'a> {
         self.receive(&submission, gathering, spare).await
     }
 
-    /// Writes back what splaying has changed.
+    /// Writes back what splaying has changed, and makes the arrays of the caller's mesh. Reads the hull as well if `reads_hull`.
     ///
     /// # Errors
     ///
-    /// Returns [`Error::TooManySimplices`] if the device has no room for it.
-    pub(crate) async fn patch(&mut self, patch: &Patch) -> Result<(), Error> {
-        let Ended { gpu, memory, stats, .. } = &mut self.ended;
-        let gpu: &Gpu = gpu;
-        let (bound, own) = (&memory.bound, &memory.buffers.own);
-        let aliases = &bound.aliases;
-        let limit = aliases.tets.len();
-        if patch.len > limit {
-            return Err(Error::TooManySimplices { limit });
-        }
-        if patch.slots.is_empty() {
-            return Ok(());
-        }
-        gpu.with_error_scope("what splaying has changed", || {
-            let count = patch.slots.len() as u32;
-            own.gathering.write(gpu, 0, &[Gathering { first: 0, patched: count }]);
-            own.gathered_slots.write(gpu, 0, &patch.slots);
-            aliases.gathered_tetrahedra.write(gpu, 0, &patch.tetrahedra);
-            aliases.gathered_neighbors.write(gpu, 0, &patch.neighbors);
-            let mut recorder = Recorder::new(gpu, None);
-            bound.record(&mut recorder, Stage::Patch, workgroups(count));
-            stats.dispatches += recorder.dispatches();
-            stats.submits += 1;
-            recorder.submit(gpu);
-            Ok(())
-        })
-        .await
-    }
-
-    /// Makes the arrays of the caller's mesh, which has changed by `patch`, and reads the hull as well if `reads_hull`.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`OutputStage::run`](crate::d3::gpu::outputs::OutputStage::run).
+    /// Returns [`Error::TooManySimplices`] if the device has no room for the change, and those of
+    /// [`OutputStage::run`](crate::d3::gpu::outputs::OutputStage::run).
     pub(crate) async fn outputs(
         &mut self,
         patch: &Patch,
@@ -269,7 +237,24 @@ impl<'a> ResidentRun<'a> {
         reads_hull: bool,
     ) -> Result<MadeArrays, Error> {
         let Ended { gpu, kernels, memory, stats, finite, counters, .. } = &mut self.ended;
-        let (aliases, buffers) = (&memory.bound.aliases, &memory.buffers);
+        let gpu: &Gpu = gpu;
+        let (bound, buffers) = (&memory.bound, &memory.buffers);
+        let aliases = &bound.aliases;
+        let limit = aliases.tets.len();
+        if patch.len > limit {
+            return Err(Error::TooManySimplices { limit });
+        }
+        let write = |recorder: &mut Recorder<'_>| {
+            let count = patch.slots.len() as u32;
+            if count == 0 {
+                return;
+            }
+            buffers.own.gathering.write(gpu, 0, &[Gathering { first: 0, patched: count }]);
+            buffers.own.gathered_slots.write(gpu, 0, &patch.slots);
+            aliases.gathered_tetrahedra.write(gpu, 0, &patch.tetrahedra);
+            aliases.gathered_neighbors.write(gpu, 0, &patch.neighbors);
+            bound.record(recorder, Stage::Patch, workgroups(count));
+        };
         let [more, more_ghosts] = patch.more;
         let params = OutputParams {
             count: patch.len as u32,
@@ -284,7 +269,7 @@ impl<'a> ResidentRun<'a> {
             numbers: &buffers.numbering.numbers,
             params,
         };
-        let made = kernels.outputs.run(gpu, &mut kernels.readback, mesh, duplicate_of, reads_hull).await?;
+        let made = kernels.outputs.run(gpu, &mut kernels.readback, write, mesh, duplicate_of, reads_hull).await?;
         stats.dispatches += made.dispatches;
         stats.submits += 1;
         Ok(made)

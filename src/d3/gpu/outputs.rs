@@ -90,7 +90,7 @@ impl OutputStage {
         }
     }
 
-    /// Makes the arrays of the mesh, and waits until the device has done so. Reads the hull in the
+    /// Makes the arrays of the mesh after what `before` records, and waits until the device has done so. Reads the hull in the
     /// same submission if `reads_hull`. All points are vertices but those that are `duplicate_of` others.
     ///
     /// # Errors
@@ -101,6 +101,7 @@ impl OutputStage {
         &self,
         gpu: &Gpu,
         readback: &mut Readback,
+        before: impl FnOnce(&mut Recorder<'_>),
         mesh: SlotMesh<'_>,
         duplicate_of: &[u32],
         reads_hull: bool,
@@ -131,6 +132,7 @@ impl OutputStage {
                 // The parameters of the scan are the count alone, which comes first here, too.
                 let scan = self.scan.bind(gpu, &params.cast(), mesh.marks, mesh.numbers)?;
                 let mut recorder = Recorder::new(gpu, None);
+                before(&mut recorder);
                 let run = |recorder: &mut Recorder<'_>, kernel: &Kernel, items: u32| {
                     recorder.dispatch(kernel, &kernel.bind(&buffers), gpu.workgroups(items as usize));
                 };

@@ -26,6 +26,7 @@ use crate::{
         start::{StartMesh, StartSimplex},
     },
     options::Winding,
+    platform,
     stats::Stopwatch,
 };
 use std::{collections::VecDeque, time::Duration};
@@ -133,6 +134,7 @@ where
             corners: D as u32 + 1,
             first_iterations: Dimension::<D>::FIRST_ITERATIONS,
             rounds: settings.rounds as usize,
+            together: platform::gpu::INSERTED_TOGETHER,
             batches: settings.batches as usize,
             removes: kernels.stages.can(Stage::Remove),
         };

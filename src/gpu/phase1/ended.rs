@@ -15,7 +15,7 @@ use crate::{
             kernels::Phase1,
             memory::Memory,
             record::counters_in,
-            run::{Phase1Run, Submitted},
+            run::Phase1Run,
             settings::Settings,
             stats::Phase1Stats,
         },
@@ -107,9 +107,7 @@ where
             .await?;
         let prepared = meanwhile();
         // What was submitted beyond the end had nothing to do, and came before.
-        for Submitted { submission, counters, .. } in std::mem::take(&mut self.submitted) {
-            self.kernels.readback.receive(gpu, &submission, counters).await?;
-        }
+        self.receive_all().await?;
         self.meter.stats.stalls += 1;
         let words = self.kernels.readback.receive(gpu, &submission, counters).await?;
         let finite = self.kernels.readback.receive(gpu, &submission, finite).await?[0] as usize;

@@ -170,6 +170,11 @@ impl Iterations {
         self.before.len > 0 && rounds as usize == self.before.len
     }
 
+    /// Returns how many points the run before, which this one repeats so far, had inserted after a round, by its number.
+    pub(crate) fn inserted(&self, round: u32) -> Option<u32> {
+        self.before.round(round).map(|before| before.inserted)
+    }
+
     /// Returns whether a round, by its number, may have iterations that one workgroup can do.
     pub(crate) fn may_be_few(&self, round: u32) -> bool {
         self.before.round(round).is_none_or(|before| before.has_few)

@@ -64,7 +64,7 @@ where
     ///
     /// # Errors
     ///
-    /// Those of [`Host::ask`].
+    /// Those of [`Host::ask`] and [`Phase1Run::advance`].
     pub(crate) async fn forget(&mut self, host: &mut impl Host<D>, starts_later: bool) -> Result<(), Error> {
         let start = if starts_later {
             let wanted = self.settings().start_points(host.point_count());
@@ -72,6 +72,7 @@ where
         } else {
             std::mem::take(&mut self.start)
         };
+        self.receive_all().await?;
         self.begin_with(start);
         Ok(())
     }

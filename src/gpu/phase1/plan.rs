@@ -39,6 +39,8 @@ pub(crate) struct Rules {
     pub(crate) first_iterations: u32,
     /// The rounds of a batch, unless hardly any flips are expected of them.
     pub(crate) rounds: usize,
+    /// Rounds that insert no more points than this are submitted together.
+    pub(crate) together: u32,
     /// The batches that are submitted before the counters of the first one are read.
     pub(crate) batches: usize,
     /// Whether facets can be removed that could not be flipped.
@@ -59,11 +61,13 @@ pub(crate) struct Batch {
 
 /// A batch of which the counters were not read yet.
 #[derive(Debug)]
-struct Ahead {
-    /// The flip iterations of each round.
-    iterations: Vec<u32>,
-    /// Whether facets are removed in one of the rounds.
-    removes: bool,
+struct Ahead(Vec<RoundPlan>);
+
+impl Ahead {
+    /// Returns whether facets are removed in one of the rounds.
+    fn removes(&self) -> bool {
+        self.0.iter().any(|round| round.removes)
+    }
 }
 
 /// The state of a run, as far as the host knows it.
@@ -181,17 +185,32 @@ impl Plan {
         let clears_votes = !is_first && bid_base > CLEAR_VOTES_FROM;
         let (mut rounds, mut goes_on) = (Vec::new(), true);
         let limit = self.rules.rounds.clamp(1, LOGGED);
+        let inserted_before = self.inserted_at_most;
         while rounds.len() < limit || (self.rules.batches > 1 && goes_on && rounds.len() < LOGGED) {
             let round = self.next_round();
             // Rounds that take hardly any time are submitted with the next one.
-            goes_on = self.next_flips_are_few() || self.iterations.flips_wait(self.rounds);
-            self.inserted_at_most = self.inserted_at_most.saturating_mul(1 + GROWTH);
+            let takes_no_time = self.next_flips_are_few() || self.iterations.flips_wait(self.rounds);
+            self.inserted_at_most = self.inserted_after_next();
             self.rounds += 1;
             rounds.push(round);
+            let inserted = self.inserted_after_next().saturating_sub(inserted_before);
+            goes_on = takes_no_time || (self.is_another_certain() && inserted <= self.rules.together);
         }
-        let iterations = rounds.iter().map(|round| round.iterations).collect();
-        self.ahead.push_back(Ahead { iterations, removes: rounds.iter().any(|round| round.removes) });
+        self.ahead.push_back(Ahead(rounds.clone()));
         Batch { is_first, grows, clears_votes, rounds }
+    }
+
+    /// Returns whether the rounds that were submitted leave something to the next one, as far as one can know.
+    fn is_another_certain(&self) -> bool {
+        let is_repeated = self.iterations.inserted(self.rounds).is_some();
+        let is_begun = !self.iterations.may_be_done(self.rounds) && self.inserted_at_most < self.rules.params.infinite;
+        !self.has_moved && (is_repeated || is_begun)
+    }
+
+    /// Returns about how many points are inserted after the next round, at most.
+    fn inserted_after_next(&self) -> u32 {
+        let known = self.iterations.inserted(self.rounds);
+        known.unwrap_or(self.inserted_at_most.saturating_mul(1 + GROWTH))
     }
 
     /// Returns whether one workgroup does all flips of the next round: the first ones have few.
@@ -221,18 +240,18 @@ impl Plan {
             return Err("more points are inserted than there are");
         }
         let before = std::mem::replace(&mut self.counters, read);
-        let Some(Ahead { iterations, .. }) = self.ahead.pop_front() else { return Ok(Vec::new()) };
+        let Some(Ahead(planned)) = self.ahead.pop_front() else { return Ok(Vec::new()) };
+        let removals = read.removals > before.removals;
         let mut rounds = Vec::new();
         let mut last = before.progress();
-        for (round, recorded) in (before.round + 1..).zip(iterations) {
+        for (round, planned) in (before.round + 1..).zip(planned) {
             // The state after the last round of a batch is that which was read.
             let is_last = round == read.round;
             let now = if is_last { read.progress() } else { read.log[round as usize % LOGGED] };
             if !follows(last, now) || now[0] > points - read.merged {
                 return Err("the counters of a round do not follow those before");
             }
-            let removes = is_last && read.removals > before.removals;
-            let known = self.known(last, now, recorded, removes);
+            let known = self.known(last, now, planned.iterations, planned.removes && removals);
             rounds.push(stats::Round {
                 inserted: known.inserted - known.inserted_before,
                 active: known.active,
@@ -247,7 +266,7 @@ impl Plan {
             last = now;
         }
         self.iterations.plan_exact(read.exact.wrapping_sub(before.exact), read.visits.wrapping_sub(before.visits));
-        self.removes = self.is_to_remove() && !self.ahead.iter().any(|batch| batch.removes);
+        self.removes = self.is_to_remove() && !self.ahead.iter().any(Ahead::removes);
         Ok(rounds)
     }
 
@@ -310,7 +329,7 @@ mod tests {
 
     fn rules() -> Rules {
         let params = Params { infinite: POINTS, few: 256, few_limit: 1024, max_min_active: 1000, ..Params::default() };
-        Rules { params, corners: 4, first_iterations: 30, rounds: 1, batches: 2, removes: true }
+        Rules { params, corners: 4, first_iterations: 30, rounds: 1, together: 1 << 16, batches: 2, removes: true }
     }
 
     /// A device without geometry: a round inserts five points per point, and leaves nothing active.
@@ -386,12 +405,26 @@ mod tests {
         assert!(!plan.is_far_ahead());
     }
 
-    /// A batch of them takes hardly any time.
+    /// One workgroup does the flips of the first two. The fifth round may insert 32,400 points, the sixth more than
+    /// there are, so that nobody knows of a seventh.
     #[test]
     fn rounds_of_few_points_are_submitted_together() {
         let mut plan = Plan::new(rules(), 5, Needed::default());
-        let batch = plan.next_batch();
-        assert_eq!(batch.rounds.iter().map(|round| round.iterations).collect::<Vec<_>>(), [0, 0, 30]);
+        let planned = |batch: Batch| batch.rounds.iter().map(|round| round.iterations).collect::<Vec<_>>();
+        assert_eq!(planned(plan.next_batch()), [0, 0, 30, 30, 30]);
+        assert_eq!([planned(plan.next_batch()), planned(plan.next_batch())], [[30], [30]]);
+    }
+
+    /// Where a run repeats another, it is known what its rounds insert, and which is the last.
+    #[test]
+    fn rounds_that_are_known_to_insert_few_points_are_submitted_together() {
+        let (mut plan, mut device) = start();
+        run(&mut plan, &mut device);
+        let needed = plan.needed().expect("points were inserted");
+        let mut again = Plan::new(rules(), START, needed);
+        let (_, batches) = run(&mut again, &mut Device(Counters { inserted: START, ..first_counters(POINTS) }));
+        // 2,500 and 15,000 points; 82,000; then facets are removed.
+        assert_eq!(batches.iter().map(|batch| batch.rounds.len()).collect::<Vec<_>>(), [2, 1, 1]);
     }
 
     #[test]
@@ -418,13 +451,15 @@ mod tests {
 
     #[test]
     fn a_round_that_inserts_nothing_is_an_error() {
-        let (mut plan, device) = start();
-        plan.next_batch();
-        let mut stuck = device.0;
-        stuck.round = 1;
-        plan.read(Counters { inserted: START, ..stuck }).expect("the start was inserted");
-        plan.next_batch();
-        assert!(plan.read(Counters { round: 2, ..stuck }).is_err());
+        for is_stuck in [false, true] {
+            let (mut plan, mut device) = start();
+            let start = device.0;
+            let batch = plan.next_batch();
+            let read = device.run(&batch);
+            let stuck = Counters { round: read.round, log: [start.progress(); LOGGED], ..start };
+            // The first round counts those that the start has as well.
+            assert_eq!((batch.rounds.len(), plan.read(if is_stuck { stuck } else { read }).is_err()), (2, is_stuck));
+        }
     }
 
     #[test]

@@ -5,6 +5,7 @@ use crate::{
     error::Error,
     gpu::{
         Gpu, Pending, Profiler, Recorder, Rooms,
+        device::ErrorScope,
         dim::Corners,
         layout::{Counters, Params},
         phase1::{
@@ -19,6 +20,7 @@ use crate::{
         },
         start::{StartMesh, StartSimplex},
     },
+    platform::gpu::Report,
     stats::Round,
 };
 use std::collections::VecDeque;
@@ -46,10 +48,12 @@ where
 
 /// A batch that was submitted.
 pub(super) struct Submitted {
-    pub(super) submission: wgpu::SubmissionIndex,
-    pub(super) counters: Pending<u32>,
+    /// Awaited with the counters, so that the next batch is submitted meanwhile: in browsers it takes a while.
+    report: Report,
+    submission: wgpu::SubmissionIndex,
+    counters: Pending<u32>,
     /// The dispatches of its rounds.
-    pub(super) dispatches: usize,
+    dispatches: usize,
 }
 
 impl<'a, const D: usize> Phase1Run<'a, D>
@@ -107,17 +111,16 @@ where
         while !self.plan.is_far_ahead() {
             self.submit().await?;
         }
-        let Some(Submitted { submission, counters, dispatches }) = self.submitted.pop_front() else {
-            return Ok(false);
-        };
-        let words = self.kernels.readback.receive(self.gpu, &submission, counters).await?;
-        let read = counters_in(&words);
+        let Some(batch) = self.submitted.pop_front() else { return Ok(false) };
+        let dispatches = batch.dispatches;
+        let read = self.receive(batch).await?;
         let elapsed = self.meter.round_clock.lap();
         self.meter.dispatch_time = elapsed / dispatches.max(1) as u32;
         if read.long_walks > 0 && self.start.points.len() > D + 1 {
             // A point may lie in no simplex of the start, which the host and the device see with
             // different perturbations. It lies in one of those around the first simplex.
             self.plan.set_counters(read);
+            self.receive_all().await?;
             self.begin_with(StartMesh::of_first(&self.first));
             return Ok(true);
         }
@@ -132,14 +135,20 @@ where
 
     /// Submits a batch.
     pub(super) async fn submit(&mut self) -> Result<(), Error> {
-        let gpu = self.gpu;
-        let batch = gpu.with_error_scope("Phase 1", || self.submit_batch()).await?;
-        self.submitted.push_back(batch);
+        let scope = ErrorScope::open(self.gpu, "Phase 1");
+        let submitted = self.submit_batch();
+        let report = scope.close();
+        let (submission, counters, dispatches) = match submitted {
+            Ok(submitted) => submitted,
+            // A lack of memory is reported more precisely than what comes of it.
+            Err(error) => return report.await.and(Err(error)),
+        };
+        self.submitted.push_back(Submitted { report, submission, counters, dispatches });
         self.meter.stats.submits += 1;
         Ok(())
     }
 
-    fn submit_batch(&mut self) -> Result<Submitted, Error> {
+    fn submit_batch(&mut self) -> Result<(wgpu::SubmissionIndex, Pending<u32>, usize), Error> {
         let piece = self.piece();
         let Phase1Run { gpu, kernels, device, plan, .. } = self;
         let mut recorder = Recorder::new(gpu, self.profiler.as_deref_mut());
@@ -152,7 +161,23 @@ where
         let dispatches = recorder.dispatches() - before;
         self.meter.stats.dispatches += recorder.dispatches();
         let counters = device.read_counters(gpu, &mut kernels.readback, &mut recorder);
-        Ok(Submitted { submission: recorder.submit(gpu), counters, dispatches })
+        Ok((recorder.submit(gpu), counters, dispatches))
+    }
+
+    /// Waits for the counters after a batch.
+    async fn receive(&mut self, batch: Submitted) -> Result<Counters, Error> {
+        let Submitted { report, submission, counters, .. } = batch;
+        report.await?;
+        let words = self.kernels.readback.receive(self.gpu, &submission, counters).await?;
+        Ok(counters_in(&words))
+    }
+
+    /// Waits for all batches that were submitted, whatever they did.
+    pub(super) async fn receive_all(&mut self) -> Result<(), Error> {
+        for batch in std::mem::take(&mut self.submitted) {
+            self.receive(batch).await?;
+        }
+        Ok(())
     }
 
     /// Returns how many dispatches are to be submitted at a time, by the time that those took that were read last.
@@ -171,7 +196,6 @@ where
         let long_walks = self.plan.counters().long_walks;
         self.plan = Plan::new(*self.plan.rules(), start_points as u32, self.before);
         self.plan.set_counters(Counters { long_walks, ..first_counters(self.device.params.infinite) });
-        self.submitted.clear();
         self.meter.stats.rounds.clear();
         self.meter.stats.start_points = start_points;
         self.start = start;

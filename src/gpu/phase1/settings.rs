@@ -36,8 +36,8 @@ pub struct Settings<const D: usize> {
     /// without a dispatch per pass.
     pub few: u32,
     /// The rounds of insertion and flips that are submitted together, at most
-    /// [`LOGGED`](crate::gpu::layout::LOGGED); the first ones, which take hardly any time, in one
-    /// batch if there are several.
+    /// [`LOGGED`](crate::gpu::layout::LOGGED); those that insert few points, or take
+    /// hardly any time, are in one batch if there are several.
     pub rounds: u32,
     /// The batches of rounds that are submitted before the counters of the first one are read.
     pub batches: u32,

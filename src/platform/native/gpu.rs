@@ -27,6 +27,9 @@ pub(crate) fn report(report: impl Future<Output = Result<(), Error>>) -> Report 
 /// out of it begins while most pieces are still to come.
 pub(crate) const PIECE: u64 = 32 << 20;
 
+/// How many points the rounds insert that are submitted together: the host has the counters of each in no time.
+pub(crate) const INSERTED_TOGETHER: u32 = 0;
+
 /// From this size on, threads share a copy.
 const SHARED_FROM: usize = 1 << 20;
 

@@ -15,6 +15,10 @@ pub(crate) fn report(report: impl Future<Output = Result<(), Error>> + 'static) 
 /// The bytes of a piece of a large array that is read: so few that a copy never holds up the calling thread for long.
 pub(crate) const PIECE: u64 = 8 << 20;
 
+/// How many points the rounds insert that are submitted together: browsers take a millisecond to hand over counters, in which
+/// a fast device inserts about as many.
+pub(crate) const INSERTED_TOGETHER: u32 = 1 << 16;
+
 /// Does nothing: browsers report by themselves what the device has carried out.
 ///
 /// # Errors
