@@ -12,6 +12,9 @@ pub mod cpu {
         pub use crate::cpu::edit::{Again, Edit, Sparse, Used, delaunay_of_used, edit};
     }
 }
+pub mod constrained {
+    pub use crate::constrained::constrained;
+}
 pub mod d2 {
     pub use crate::d2::Triangulation2;
     pub mod generate {

@@ -1,7 +1,7 @@
 //! Which triangles are inside the boundaries.
 
-use super::Fill;
-use crate::{d2::Mesh2, error::Error, index::NONE};
+use super::{Constraints, Fill};
+use crate::{d2::Mesh2, error::Error, index::NONE, input::points::Points2, predicates::orient2d};
 
 /// How often boundaries run along an edge, from its lower vertex to the higher one, less those that run back; or, for
 /// the even-odd rule, how often they do so either way.
@@ -26,10 +26,51 @@ pub(super) fn check_closed(points: usize, fill: Fill, edges: impl Iterator<Item 
 }
 
 /// Returns whether each triangle is inside, where each constrained edge of the mesh has a weight.
-pub(super) fn inside(mesh: &Mesh2, fill: Fill, weights: &[Weight]) -> Vec<bool> {
-    if fill == Fill::All {
-        return vec![true; mesh.triangles.len()];
+pub(super) fn inside(mesh: &Mesh2, points: Points2<'_>, constraints: &Constraints, weights: &[Weight]) -> Vec<bool> {
+    let mut inside = match constraints.fill {
+        Fill::All | Fill::Enclosed => vec![true; mesh.triangles.len()],
+        fill => by_winding(mesh, fill, weights),
+    };
+    let mut outside = Vec::new();
+    if constraints.fill == Fill::Enclosed {
+        let is_open = |t: usize| (0..3).any(|k| mesh.neighbor(t, k).is_none() && !mesh.is_constrained(mesh.edge(t, k)));
+        outside.extend((0..inside.len()).filter(|&t| is_open(t)));
     }
+    if outside.is_empty() && constraints.holes.is_empty() {
+        return inside;
+    }
+    let regions = regions(mesh);
+    let count = regions.iter().max().map_or(0, |&last| last as usize + 1);
+    let mut is_outside = vec![false; count];
+    for region in outside.into_iter().map(|t| regions[t]).chain(holes(mesh, points, &constraints.holes, &regions)) {
+        is_outside[region as usize] = true;
+    }
+    for (inside, region) in inside.iter_mut().zip(regions) {
+        *inside &= !is_outside[region as usize];
+    }
+    inside
+}
+
+/// Returns the regions around places; none for those on segments and outside the hull.
+fn holes(mesh: &Mesh2, points: Points2<'_>, places: &[[f64; 2]], regions: &[u32]) -> Vec<u32> {
+    let contains = |t: usize, place: [f64; 2]| {
+        let corners = mesh.triangles[t].map(|v| points.get(v as usize));
+        // Most triangles are beside the place along an axis.
+        let is_beside = |axis: usize| {
+            corners.iter().all(|p| p[axis] < place[axis]) || corners.iter().all(|p| p[axis] > place[axis])
+        };
+        !is_beside(0) && !is_beside(1) && (0..3).all(|k| orient2d(corners[k], corners[(k + 1) % 3], place) >= 0)
+    };
+    let of = |&place: &[f64; 2]| {
+        let mut around = (0..regions.len()).filter(|&t| contains(t, place)).map(|t| regions[t]);
+        let first = around.next()?;
+        around.all(|region| region == first).then_some(first)
+    };
+    places.iter().filter(|place| place.iter().all(|x| x.is_finite())).filter_map(of).collect()
+}
+
+/// Returns whether boundaries wind around each triangle.
+fn by_winding(mesh: &Mesh2, fill: Fill, weights: &[Weight]) -> Vec<bool> {
     // What is to the left of an edge counts more than what is to the right by the weight of the edge.
     let step = |t: usize, k: usize| {
         let [from, to] = mesh.edge(t, k);

@@ -20,15 +20,17 @@ mod split;
 mod topology;
 
 use crate::{
+    cpu,
     d2::Mesh2,
     error::Error,
+    index::NONE,
     input::points::Points2,
+    options::Options,
     parallel::{self, Threads},
 };
 use insert::{Inserted, Inserter, Lost};
+use split::Split;
 use topology::Marked;
-
-pub(crate) use split::Split;
 
 /// The number of crossings that [`Error::CrossingConstraints`] lists.
 const LISTED: usize = 16;
@@ -59,6 +61,8 @@ pub enum Fill {
     EvenOdd,
     /// Those around which boundaries wind, with counter-clockwise turns less clockwise ones.
     NonZero,
+    /// Those from which no way leads out without crossing a segment, boundary or not, as in Triangle's `.poly` files.
+    Enclosed,
 }
 
 /// Segments that are to be edges of a mesh, by the indices of their ends:
@@ -72,10 +76,11 @@ pub enum Fill {
 /// let constraints = Constraints::new().ring(&[0, 1, 2, 3]).edges(&[[4, 5]]).fill(Fill::EvenOdd);
 /// assert_eq!(constraints.segments(), [[4, 5], [0, 1], [1, 2], [2, 3], [3, 0]]);
 /// ```
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Constraints {
     edges: Vec<[u32; 2]>,
     boundary: Vec<[u32; 2]>,
+    holes: Vec<[f64; 2]>,
     fill: Fill,
     is_split: bool,
 }
@@ -109,6 +114,27 @@ impl Constraints {
     #[must_use]
     pub fn boundary(mut self, edges: &[[u32; 2]]) -> Self {
         self.boundary.extend(edges);
+        self
+    }
+
+    /// Marks the region around a place as a hole, whatever the fill rule: segments separate regions, boundaries or not. A
+    /// place on a segment or outside the hull marks nothing.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use gdel::{Constraints, Fill, Triangulator};
+    ///
+    /// let points = [[0.0, 0.0], [6.0, 0.0], [6.0, 6.0], [0.0, 6.0], [3.0, 2.0], [4.0, 4.0], [2.0, 4.0f64]];
+    /// let segments = [[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 4]];
+    /// let constraints = Constraints::new().edges(&segments).fill(Fill::Enclosed).hole([3.0, 3.0]);
+    /// let found = Triangulator::new().constrained2d(&points, &constraints)?;
+    /// assert_eq!((found.mesh.triangles.len(), found.inside_triangles().count()), (8, 7));
+    /// # Ok::<(), gdel::Error>(())
+    /// ```
+    #[must_use]
+    pub fn hole(mut self, place: [f64; 2]) -> Self {
+        self.holes.push(place);
         self
     }
 
@@ -149,13 +175,8 @@ impl Constraints {
         [self.edges.as_slice(), &self.boundary].concat()
     }
 
-    /// Returns whether crossings are split.
-    pub(crate) fn splits(&self) -> bool {
-        self.is_split
-    }
-
     /// Returns the error that says which pairs of segments cross.
-    pub(crate) fn crossing_error(&self, pairs: &[[u32; 2]]) -> Error {
+    fn crossing_error(&self, pairs: &[[u32; 2]]) -> Error {
         let segments = self.segments();
         let listed = pairs.iter().take(LISTED).map(|pair| pair.map(|i| segments[i as usize])).collect();
         Error::CrossingConstraints { count: pairs.len(), pairs: listed }
@@ -166,7 +187,7 @@ impl Constraints {
     /// # Errors
     ///
     /// [`Error::BadConstraint`].
-    pub(crate) fn check(&self, points: usize) -> Result<(), Error> {
+    fn check(&self, points: usize) -> Result<(), Error> {
         let is_bad = |segment: &&[u32; 2]| segment.iter().any(|&v| v as usize >= points);
         match self.edges.iter().chain(&self.boundary).find(is_bad) {
             Some(&segment) => Err(Error::BadConstraint { segment, points }),
@@ -217,6 +238,26 @@ impl Constrained2 {
         self.mesh.triangles.iter().zip(&self.inside).filter(|&(_, &inside)| inside).map(|(&triangle, _)| triangle)
     }
 
+    /// Returns the triangles inside the boundaries as a mesh, whose half-edges have no opposite where it ends. Its hull is
+    /// that of the points.
+    pub fn inside_mesh(&self) -> Mesh2 {
+        let mut mesh = self.mesh.clone();
+        if self.inside.iter().all(|&inside| inside) {
+            return mesh;
+        }
+        let mut places = vec![NONE; self.inside.len()];
+        let kept: Vec<usize> = (0..self.inside.len()).filter(|&t| self.inside[t]).collect();
+        (0..).zip(&kept).for_each(|(place, &t)| places[t] = place);
+        let halfedge = |e: u32| match e {
+            NONE => NONE,
+            e if places[e as usize / 3] == NONE => NONE,
+            e => 3 * places[e as usize / 3] + e % 3,
+        };
+        mesh.halfedges = kept.iter().map(|&t| mesh.halfedges[t].map(halfedge)).collect();
+        mesh.triangles = kept.iter().map(|&t| mesh.triangles[t]).collect();
+        mesh
+    }
+
     /// Returns the region of each triangle: two triangles are in the same one if a way from one to the other crosses
     /// no constrained edge. Regions are numbered from 0 in the order of their first triangles.
     pub fn triangle_regions(&self) -> Vec<u32> {
@@ -231,16 +272,12 @@ impl Constrained2 {
 ///
 /// [`Unconstrained::Crossings`], or [`Error::OpenBoundary`], or [`Error::BrokenMesh`] if the mesh is not that of the
 /// points.
-pub(crate) fn constrain(
-    mut mesh: Mesh2,
-    points: Points2<'_>,
-    constraints: &Constraints,
-) -> Result<Constrained2, Unconstrained> {
+fn constrain(mut mesh: Mesh2, points: Points2<'_>, constraints: &Constraints) -> Result<Constrained2, Unconstrained> {
     let first_boundary = constraints.edges.len() as u32;
     let named = |segment: &[u32; 2]| segment.map(|v| mesh.representative(v));
     let segments: Vec<[u32; 2]> = constraints.edges.iter().chain(&constraints.boundary).map(named).collect();
     let zero_length = segments.iter().filter(|[a, b]| a == b).count();
-    if constraints.fill != Fill::All {
+    if matches!(constraints.fill, Fill::EvenOdd | Fill::NonZero) {
         let boundary = segments[first_boundary as usize..].iter().copied();
         fill::check_closed(points.len(), constraints.fill, boundary)?;
     }
@@ -262,13 +299,85 @@ pub(crate) fn constrain(
     let edges = pieces.chunk_by(|a, b| a.0 == b.0);
     mesh.constraints = edges.clone().map(|pieces| pieces[0].0).collect();
     let weights: Vec<fill::Weight> = edges.map(|pieces| pieces.iter().map(weight).sum()).collect();
-    let inside = fill::inside(&mesh, constraints.fill, &weights);
+    let inside = fill::inside(&mesh, points, constraints, &weights);
     let segments = constraints.segments();
     Ok(Constrained2 { mesh, inside, zero_length, segments, ..Constrained2::default() })
 }
 
+/// How often crossings are split: segments that cross many others are cut in several rounds, and rounding can make new
+/// crossings.
+const MAX_ROUNDS: usize = 100;
+
+/// What is left to do for a constrained triangulation: the [points](Self::points) are to be triangulated, and the mesh
+/// [constrained](Self::constrain), until nothing is left.
+pub(crate) struct Constraining<'a> {
+    points: Points2<'a>,
+    constraints: &'a Constraints,
+    split: Option<Split>,
+    rounds: usize,
+}
+
+impl<'a> Constraining<'a> {
+    /// Checks the constraints.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::BadConstraint`].
+    pub(crate) fn new(points: Points2<'a>, constraints: &'a Constraints) -> Result<Self, Error> {
+        constraints.check(points.len())?;
+        Ok(Constraining { points, constraints, split: None, rounds: 0 })
+    }
+
+    /// Returns the points whose counter-clockwise Delaunay triangulation is needed next.
+    pub(crate) fn points(&self) -> Points2<'_> {
+        self.split.as_ref().map_or(self.points, |split| Points2::F64(&split.points))
+    }
+
+    /// Makes that triangulation the result; `None` if points were put at crossings, so that another one is needed.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::CrossingConstraints`], [`Error::OpenBoundary`], or [`Error::BrokenMesh`] if the mesh is not that of the
+    /// points.
+    pub(crate) fn constrain(&mut self, mesh: Mesh2) -> Result<Option<Constrained2>, Error> {
+        let constraints = self.split.as_ref().map_or(self.constraints, |split| &split.constraints);
+        let pairs = match constrain(mesh, self.points(), constraints) {
+            Ok(mut found) => {
+                if let Some(mut split) = self.split.take() {
+                    found.added = split.points.split_off(split.given);
+                    found.moved = split.moved;
+                }
+                return Ok(Some(found));
+            }
+            Err(Unconstrained::Error(error)) => return Err(error),
+            Err(Unconstrained::Crossings(pairs)) => pairs,
+        };
+        if !constraints.is_split || self.rounds == MAX_ROUNDS {
+            return Err(constraints.crossing_error(&pairs));
+        }
+        self.rounds += 1;
+        let split = || Split::new(self.points.iter().collect(), self.constraints.clone());
+        self.split.get_or_insert_with(split).cut(&pairs);
+        Ok(None)
+    }
+}
+
+/// Returns the constrained Delaunay triangulation of points with the CPU engine.
+///
+/// # Errors
+///
+/// Returns the errors of [`Triangulator::constrained2d`](crate::Triangulator::constrained2d).
+pub fn constrained(points: Points2<'_>, constraints: &Constraints, options: &Options) -> Result<Constrained2, Error> {
+    let mut left = Constraining::new(points, constraints)?;
+    loop {
+        if let Some(found) = left.constrain(cpu::delaunay::<2>(left.points(), options)?)? {
+            return Ok(found);
+        }
+    }
+}
+
 /// Why a mesh is not that of the constraints.
-pub(crate) enum Unconstrained {
+enum Unconstrained {
     Error(Error),
     /// The pairs of segments that cross.
     Crossings(Vec<[u32; 2]>),

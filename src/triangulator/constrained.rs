@@ -1,16 +1,12 @@
 //! Points with constraints.
 
 use crate::{
-    constrained::{Constrained2, Constraints, Split, Unconstrained, constrain},
+    constrained::{Constrained2, Constraining, Constraints},
     error::Error,
     input::points::Points2,
     options::Winding,
     triangulator::{Triangulator, wait::wait},
 };
-
-/// How often crossings are split: segments that cross many others are cut in several rounds, and rounding can make new
-/// crossings.
-const MAX_ROUNDS: usize = 100;
 
 impl Triangulator {
     /// Returns the constrained Delaunay triangulation of `points`: the one that has the constraints as edges, and whose
@@ -59,36 +55,14 @@ impl Triangulator {
         points: impl Into<Points2<'a>>,
         constraints: &Constraints,
     ) -> Result<Constrained2, Error> {
-        let points = points.into();
-        constraints.check(points.len())?;
         let mut triangulator = self.clone();
         triangulator.options.winding = Winding::CounterClockwise;
-        let pairs = match constrain(triangulator.delaunay2d_async(points).await?, points, constraints) {
-            Ok(found) => return Ok(found),
-            Err(Unconstrained::Error(error)) => return Err(error),
-            Err(Unconstrained::Crossings(pairs)) if !constraints.splits() => {
-                return Err(constraints.crossing_error(&pairs));
-            }
-            Err(Unconstrained::Crossings(pairs)) => pairs,
-        };
-        triangulator.split(Split::new(points.iter().collect(), constraints.clone()), pairs).await
-    }
-
-    /// Triangulates anew with points where pairs of segments cross, until none does.
-    async fn split(&self, mut split: Split, mut pairs: Vec<[u32; 2]>) -> Result<Constrained2, Error> {
-        for _ in 0..MAX_ROUNDS {
-            split.cut(&pairs);
-            let points = Points2::F64(&split.points);
-            match constrain(self.delaunay2d_async(points).await?, points, &split.constraints) {
-                Ok(mut found) => {
-                    found.added = split.points.split_off(split.given);
-                    found.moved = split.moved;
-                    return Ok(found);
-                }
-                Err(Unconstrained::Error(error)) => return Err(error),
-                Err(Unconstrained::Crossings(left)) => pairs = left,
+        let mut left = Constraining::new(points.into(), constraints)?;
+        loop {
+            let mesh = triangulator.delaunay2d_async(left.points()).await?;
+            if let Some(found) = left.constrain(mesh)? {
+                return Ok(found);
             }
         }
-        Err(split.constraints.crossing_error(&pairs))
     }
 }

@@ -692,3 +692,34 @@ fn fill_rules_of_a_ring_that_crosses_itself() {
         assert_eq!((found.added.as_slice(), found.inside_triangles().count()), (&[[1.5, 1.5]][..], inside));
     }
 }
+
+/// A ring of a 3 × 3 grid around its middle point, with a gap in the segments of its lower side on request.
+fn ring(is_open: bool) -> (Vec<[f64; 2]>, Vec<Segment>) {
+    let points = (0..9).map(|i| [f64::from(i % 3), f64::from(i / 3)]).collect();
+    let ring = [[1, 2], [2, 5], [5, 8], [8, 7], [7, 6], [6, 3], [3, 0], [0, 1]];
+    (points, ring[usize::from(is_open)..].to_vec())
+}
+
+#[test]
+fn what_segments_enclose() {
+    let inside = |is_open, more: &[Segment], holes: &[[f64; 2]], fill| {
+        let (points, segments) = ring(is_open);
+        let constraints = Constraints::new().edges(&segments).edges(more).fill(fill);
+        let constraints = holes.iter().fold(constraints, |constraints, &hole| constraints.hole(hole));
+        constrained(&points, &constraints).unwrap().inside_triangles().count()
+    };
+    assert_eq!(inside(false, &[], &[], Fill::Enclosed), 8);
+    assert_eq!(inside(true, &[], &[], Fill::Enclosed), 0);
+    assert_eq!(inside(true, &[[3, 4], [4, 5]], &[], Fill::Enclosed), 4);
+    // A place inside, on an edge, on a vertex within a region, on a segment, outside, nowhere.
+    let cut = [[3, 4], [4, 5]];
+    assert_eq!(inside(false, &cut, &[[0.3, 1.2]], Fill::Enclosed), 4);
+    assert_eq!(inside(false, &cut, &[[1.0, 1.5]], Fill::Enclosed), 4);
+    assert_eq!(inside(false, &[], &[[1.0, 1.0]], Fill::Enclosed), 0);
+    for nothing in [[1.0, 1.0], [0.5, 1.0], [3.0, 1.0], [f64::NAN, 1.0]] {
+        assert_eq!(inside(false, &cut, &[nothing], Fill::Enclosed), 8, "{nothing:?}");
+    }
+    // The same with other rules: what a hole marks is outside.
+    assert_eq!(inside(false, &cut, &[[0.3, 1.2]], Fill::All), 4);
+    assert_eq!(inside(false, &cut, &[[0.3, 1.2], [0.3, 0.2]], Fill::All), 0);
+}
