@@ -3,7 +3,7 @@
 #[path = "../crates/gdel-io/tests/io/samples.rs"]
 mod samples;
 
-use gdel_io::{MeshFormat, PointFormat};
+use gdel_io::{MeshFormat, PointFormat, ShapeFormat};
 use std::{fs, io, path::Path};
 
 fn main() -> io::Result<()> {
@@ -25,6 +25,9 @@ fn main() -> io::Result<()> {
     for (i, (dimension, (format, _, bytes))) in meshes.enumerate() {
         let choice = MeshFormat::ALL.iter().position(|&other| other == format);
         write("meshes", i, choice.map(|choice| choice | dimension), bytes)?;
+    }
+    for (i, (format, bytes)) in samples::shapes().into_iter().enumerate() {
+        write("shapes", i, ShapeFormat::ALL.iter().position(|&other| other == format), bytes)?;
     }
     let [of_3d, of_2d] = samples::neighbors();
     write("meshes", 100, Some(MeshFormat::ALL.len()), of_3d)?;

@@ -1,9 +1,12 @@
-//! `--edges` of `gdel triangulate`: segments, and what becomes of them.
+//! Segments of `gdel triangulate`, from `--edges` or from shapes, and what becomes of them.
 
-use super::{failure::Failure, report::ConstraintCounts};
+use super::{failure::Failure, progress::Progress, report::ConstraintCounts};
 use clap::ValueEnum;
-use gdel::{Constrained2, Constraints, Error, Fill, Mesh2, MeshView2, NONE, Points, verify::Report, verify2d};
-use gdel_io::files::read_edges;
+use gdel::{Constrained2, Constraints, Error, Fill, MeshView2, Points, verify::Report, verify2d};
+use gdel_io::{
+    PointCloud, ShapeFormat,
+    files::{self, shown},
+};
 use std::path::Path;
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -14,17 +17,53 @@ pub(super) enum FillRule {
     Evenodd,
     /// Those around which boundaries wind, with counter-clockwise turns less clockwise ones
     Nonzero,
+    /// Those from which no way leads out without crossing a segment
+    Enclosed,
 }
 
-/// Reads segments, which get points where they cross if they are to be split.
-pub(super) fn read_constraints(edges: &Path, fill: FillRule, is_split: bool) -> Result<Constraints, Failure> {
-    let segments = read_edges(edges)?;
-    let constraints = match fill {
-        FillRule::All => Constraints::new().edges(&segments),
-        FillRule::Evenodd => Constraints::new().boundary(&segments).fill(Fill::EvenOdd),
-        FillRule::Nonzero => Constraints::new().boundary(&segments).fill(Fill::NonZero),
+impl From<FillRule> for Fill {
+    fn from(rule: FillRule) -> Self {
+        match rule {
+            FillRule::All => Fill::All,
+            FillRule::Evenodd => Fill::EvenOdd,
+            FillRule::Nonzero => Fill::NonZero,
+            FillRule::Enclosed => Fill::Enclosed,
+        }
+    }
+}
+
+/// Points with segments between them.
+pub(super) struct Constrained {
+    pub(super) cloud: PointCloud<2>,
+    pub(super) constraints: Constraints,
+}
+
+/// Reads the segments of points; those of boundaries, if there is a rule that needs some.
+pub(super) fn read_edges(cloud: PointCloud<2>, edges: &Path, fill: Option<FillRule>) -> Result<Constrained, Failure> {
+    let segments = files::read_edges(edges)?;
+    let constraints = match fill.unwrap_or(FillRule::All) {
+        rule @ (FillRule::All | FillRule::Enclosed) => Constraints::new().edges(&segments).fill(rule.into()),
+        rule => Constraints::new().boundary(&segments).fill(rule.into()),
     };
-    Ok(if is_split { constraints.split_crossings() } else { constraints })
+    Ok(Constrained { cloud, constraints })
+}
+
+/// Reads shapes, with a note on standard error about what is left out.
+pub(super) fn read_shapes(path: &Path, format: ShapeFormat, fill: Option<FillRule>) -> Result<Constrained, Failure> {
+    let _progress = Progress::new("reading");
+    let shapes = files::read_shapes(path, format)?;
+    if shapes.dropped_z {
+        eprintln!("gdel: {}: the z coordinates are dropped", shown(path));
+    }
+    if !shapes.left_out.is_empty() {
+        eprintln!("gdel: {}: left out: {}", shown(path), shapes.left_out.join(", "));
+    }
+    let constraints = shapes.constraints();
+    let constraints = match fill {
+        Some(rule) => constraints.fill(rule.into()),
+        None => constraints,
+    };
+    Ok(Constrained { cloud: shapes.into_cloud(), constraints })
 }
 
 /// Returns whether an error is one of the segments.
@@ -48,23 +87,4 @@ pub(super) fn prove(points: Points<'_, 2>, found: &Constrained2) -> Result<Repor
     let mut view = MeshView2::from(&found.mesh);
     view.segments = Some(&found.segments);
     verify2d(points, view)
-}
-
-/// Returns the triangles inside as a mesh, which ends where they do.
-pub(super) fn inside(found: Constrained2) -> Mesh2 {
-    let Constrained2 { mut mesh, inside, .. } = found;
-    if inside.iter().all(|&inside| inside) {
-        return mesh;
-    }
-    let mut places = vec![NONE; inside.len()];
-    let kept: Vec<usize> = (0..inside.len()).filter(|&t| inside[t]).collect();
-    (0..).zip(&kept).for_each(|(place, &t)| places[t] = place);
-    let halfedge = |e: u32| match e {
-        NONE => NONE,
-        e if places[e as usize / 3] == NONE => NONE,
-        e => 3 * places[e as usize / 3] + e % 3,
-    };
-    mesh.halfedges = kept.iter().map(|&t| mesh.halfedges[t].map(halfedge)).collect();
-    mesh.triangles = kept.iter().map(|&t| mesh.triangles[t]).collect();
-    mesh
 }

@@ -1,18 +1,22 @@
 //! `gdel triangulate`: a point cloud in, its Delaunay triangulation out, or the regular one of weighted points.
 
 use super::{
-    constrain,
-    dimension::{Dimension, Rescale, Triangulation, format_parser, in_dimension},
+    constrain::{self, Constrained, FillRule},
+    dimension::{Dimension, Rescale, Triangulation, in_dimension},
     failure::Failure,
     progress::Progress,
     report::Report,
     verify,
     weights::Weights,
 };
-use clap::{Args, ValueEnum, error::ErrorKind};
+use clap::{
+    Args, ValueEnum,
+    builder::{PossibleValuesParser, TypedValueParser},
+    error::ErrorKind,
+};
 use gdel::{Backend, Constrained2, Mesh3, Points, Triangulator};
 use gdel_io::{
-    PointCloud, PointFormat,
+    PointCloud, PointFormat, ShapeFormat,
     files::{Input, Output},
 };
 use serde::Serialize;
@@ -25,11 +29,13 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Compute the Delaunay triangulation of a point cloud, or the regular triangulation of weighted points.
+/// Compute the Delaunay triangulation of a point cloud, the regular triangulation of weighted points, or the constrained
+/// one of shapes in a plane.
 #[derive(Args)]
 pub(super) struct Arguments {
     /// The points: .ply, .obj, .stl, .off, .xyz, .txt, .asc, .pts, .csv, .tsv, .ptx, .pcd, .las, .laz,
-    /// .e57, .npy, .node, .f32 or .f64; or `-` for standard input, with `--format`
+    /// .e57, .npy, .node, .f32 or .f64; or shapes: .geojson or .json, .svg, or .poly of the program Triangle; or `-` for
+    /// standard input, with `--format`
     input: PathBuf,
     /// Where to write: the mesh as .node, .ele and .neigh (TetGen, always all three), .vtu or .npz;
     /// its hull as .ply, .obj, .stl, .glb or .3mf, for points in a plane their polygon from both sides; may
@@ -39,16 +45,16 @@ pub(super) struct Arguments {
     /// Replace any existing file; without this, only earlier outputs of gdel are replaced
     #[arg(short, long)]
     force: bool,
-    /// The dimension of the points; in 2D, z is dropped and all outputs hold triangles
-    #[arg(long, value_enum, default_value_t = Dimension::Three)]
-    dim: Dimension,
+    /// The dimension of the points; in 2D, z is dropped and all outputs hold triangles [default: 3, and 2 for shapes]
+    #[arg(long, value_enum, hide_default_value = true)]
+    dim: Option<Dimension>,
     /// Take the points as longitude and latitude in degrees: the hull of the points of the unit sphere is
     /// their triangulation there
     #[arg(long, conflicts_with_all = ["dim", "rescale"])]
     sphere: bool,
     /// The format of the input, whatever its extension
-    #[arg(long, value_parser = format_parser())]
-    format: Option<PointFormat>,
+    #[arg(long, value_parser = input_parser())]
+    format: Option<InputFormat>,
     /// Multiply the coordinates by these factors, one per axis, before anything is computed; without
     /// factors, by those that give each axis the same extent. What is written has the given coordinates
     #[arg(long, value_name = "X,Y,Z", num_args = 0..=1, require_equals = true, default_missing_value = "")]
@@ -60,12 +66,14 @@ pub(super) struct Arguments {
     /// as Delaunay as they allow. Needs --dim 2
     #[arg(long, value_name = "FILE", conflicts_with_all = ["rescale", "sphere", "weights", "radii"])]
     edges: Option<PathBuf>,
-    /// Take the segments as boundaries, outer ones and those of holes, and write the triangles inside
-    #[arg(long, value_enum, default_value_t = constrain::FillRule::All, requires = "edges")]
-    fill: constrain::FillRule,
+    /// Take the segments as boundaries, outer ones and those of holes, and write the triangles inside [default: all for
+    /// --edges, and what the format means for shapes: evenodd in GeoJSON, nonzero in SVG, enclosed in .poly, less what
+    /// that marks as holes]
+    #[arg(long, value_enum)]
+    fill: Option<FillRule>,
     /// Put a point where segments cross, rounded to the nearest coordinates, instead of an error. Such points are
     /// written after those of the input
-    #[arg(long, requires = "edges")]
+    #[arg(long)]
     split: bool,
     /// Where to compute; the mesh is the same everywhere
     #[arg(long, value_enum, default_value_t = BackendName::Auto)]
@@ -93,6 +101,32 @@ impl Arguments {
             None => triangulator,
         }
     }
+
+    /// Returns the format of the input if it is shapes.
+    fn shape_format(&self) -> Option<ShapeFormat> {
+        match self.format {
+            Some(InputFormat::Shapes(format)) => Some(format),
+            Some(InputFormat::Points(_)) => None,
+            None => ShapeFormat::from_extension(self.input.extension()?.to_str()?),
+        }
+    }
+}
+
+/// The format of an input: of points, or of shapes.
+#[derive(Clone, Copy)]
+enum InputFormat {
+    Points(PointFormat),
+    Shapes(ShapeFormat),
+}
+
+/// Parses the name of a format, which is one of its extensions.
+fn input_parser() -> impl TypedValueParser<Value = InputFormat> {
+    let points = PointFormat::ALL.iter().flat_map(|format| format.extensions());
+    let all = points.chain(ShapeFormat::ALL.iter().flat_map(|format| format.extensions()));
+    PossibleValuesParser::new(all).try_map(|name| {
+        let shapes = ShapeFormat::from_extension(&name).map(InputFormat::Shapes);
+        shapes.or_else(|| PointFormat::from_extension(&name).map(InputFormat::Points)).ok_or("no format of an input")
+    })
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -126,13 +160,23 @@ fn parse_output(path: &str) -> Result<Output, String> {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    if let Some(format) = arguments.shape_format() {
+        return triangulate_shapes(arguments, format);
+    }
+    if let Some(edges) = &arguments.edges {
+        return triangulate_edges(arguments, edges);
+    }
+    if arguments.fill.is_some() || arguments.split {
+        return usage(ErrorKind::MissingRequiredArgument, "--fill and --split need segments: --edges, or shapes");
+    }
     if arguments.sphere {
         return triangulate_sphere(arguments);
     }
-    if let Some(edges) = &arguments.edges {
-        return triangulate_constrained(arguments, edges);
-    }
-    in_dimension!(arguments.dim, run_in, arguments)
+    in_dimension!(arguments.dim.unwrap_or(Dimension::Three), run_in, arguments)
+}
+
+fn usage<T>(kind: ErrorKind, what: &str) -> Result<T, Failure> {
+    Err(Failure::Usage(kind, what.into()))
 }
 
 fn triangulate_sphere(arguments: &Arguments) -> Result<(), Failure> {
@@ -143,16 +187,38 @@ fn triangulate_sphere(arguments: &Arguments) -> Result<(), Failure> {
     run_with::<Mesh3, 3, 4>(arguments, &Read { input, cloud, weights: None })
 }
 
-fn triangulate_constrained(arguments: &Arguments, edges: &Path) -> Result<(), Failure> {
-    if arguments.dim != Dimension::Two {
-        return Err(Failure::Usage(ErrorKind::MissingRequiredArgument, "--edges needs --dim 2".into()));
+fn triangulate_edges(arguments: &Arguments, edges: &Path) -> Result<(), Failure> {
+    if arguments.dim != Some(Dimension::Two) {
+        return usage(ErrorKind::MissingRequiredArgument, "--edges needs --dim 2");
     }
     arguments.outputs.iter().try_for_each(|output| output.check(&[edges], arguments.force))?;
-    let Read { input, cloud, .. } = read_input::<2>(arguments)?;
-    let constraints = constrain::read_constraints(edges, arguments.fill, arguments.split)?;
+    let Read { cloud, .. } = read_input::<2>(arguments)?;
+    triangulate_constrained(arguments, constrain::read_edges(cloud, edges, arguments.fill)?, edges)
+}
+
+fn triangulate_shapes(arguments: &Arguments, format: ShapeFormat) -> Result<(), Failure> {
+    if arguments.dim == Some(Dimension::Three) {
+        return usage(ErrorKind::ArgumentConflict, "shapes are in a plane: leave out --dim 3");
+    }
+    let has_other = arguments.edges.is_some() || arguments.rescale.is_some() || arguments.weights.are_given();
+    if has_other || arguments.sphere {
+        let what = "--edges, --rescale, --sphere, --weights and --radii are for points, and the input is shapes";
+        return usage(ErrorKind::ArgumentConflict, what);
+    }
+    let input = &arguments.input;
+    arguments.outputs.iter().try_for_each(|output| output.check(&[input], arguments.force))?;
+    triangulate_constrained(arguments, constrain::read_shapes(input, format, arguments.fill)?, input)
+}
+
+/// Triangulates points with the segments of a file.
+fn triangulate_constrained(arguments: &Arguments, read: Constrained, of_segments: &Path) -> Result<(), Failure> {
+    let Constrained { cloud, mut constraints } = read;
+    if arguments.split {
+        constraints = constraints.split_crossings();
+    }
     let points = Points::from(&cloud);
     let failure = |source| {
-        let path = if constrain::is_of_segments(&source) { edges } else { input.path() };
+        let path = if constrain::is_of_segments(&source) { of_segments } else { &arguments.input };
         Failure::Points { path: path.into(), source }
     };
     let report = |found: &Constrained2, total, verified| {
@@ -181,10 +247,10 @@ fn triangulate_constrained(arguments: &Arguments, edges: &Path) -> Result<(), Fa
     let proof = proof.map_err(failure)?;
     report(&found, total, proof.as_ref().map(gdel::verify::Report::passed))?;
     if let Some(proof) = &proof {
-        verify::conclude(input.path(), proof)?;
+        verify::conclude(&arguments.input, proof)?;
     }
     let _progress = Progress::new("writing");
-    let mesh = constrain::inside(found);
+    let mesh = found.inside_mesh();
     Ok(arguments.outputs.iter().try_for_each(|output| output.write(points, &mesh))?)
 }
 
@@ -201,7 +267,11 @@ struct Read<const D: usize> {
 
 /// Checks the outputs, and reads the points, and their weights if there are to be any.
 fn read_input<const D: usize>(arguments: &Arguments) -> Result<Read<D>, Failure> {
-    let input = Input::new(&arguments.input, arguments.format)?;
+    let format = match arguments.format {
+        Some(InputFormat::Points(format)) => Some(format),
+        _ => None,
+    };
+    let input = Input::new(&arguments.input, format)?;
     arguments.outputs.iter().try_for_each(|output| output.check(&[input.path()], arguments.force))?;
     let (cloud, weights) = arguments.weights.read::<D>(&input)?;
     Ok(Read { input, cloud, weights })

@@ -18,6 +18,11 @@ pub(super) struct Weights {
 }
 
 impl Weights {
+    /// Returns whether there are to be weights.
+    pub(super) fn are_given(&self) -> bool {
+        self.weights.is_some() || self.radii.is_some()
+    }
+
     /// Reads the points, and their weights if there are to be any.
     pub(super) fn read<const D: usize>(&self, input: &Input) -> Result<(PointCloud<D>, Option<Vec<f64>>), Failure> {
         let _progress = Progress::new("reading");

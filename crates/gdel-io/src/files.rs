@@ -1,6 +1,9 @@
 //! Files by path: formats by extension, and outputs that are written atomically.
 
-use crate::{FormatError, Mesh, MeshData, MeshFormat, PointCloud, PointFormat, printable, tetgen};
+use crate::{
+    FormatError, Mesh, MeshData, MeshFormat, PointCloud, PointFormat, Position, ShapeFormat, Shapes, poly, printable,
+    tetgen,
+};
 use gdel::Points;
 use std::{
     fs,
@@ -156,15 +159,15 @@ impl Input {
     }
 
     fn bytes(&self) -> Result<Vec<u8>, FileError> {
-        let path = &self.path;
-        if path != Path::new("-") {
-            return read(path);
-        }
-        let mut bytes = Vec::new();
-        let read = io::stdin().lock().read_to_end(&mut bytes);
-        read.map_err(|source| FileError::Read { path: path.clone(), source })?;
-        Ok(bytes)
+        if self.path == Path::new("-") { read_standard_input() } else { read(&self.path) }
     }
+}
+
+fn read_standard_input() -> Result<Vec<u8>, FileError> {
+    let mut bytes = Vec::new();
+    let read = io::stdin().lock().read_to_end(&mut bytes);
+    read.map_err(|source| FileError::Read { path: "-".into(), source })?;
+    Ok(bytes)
 }
 
 /// Reads a 3D point cloud; the extension says in which format. [`Input`] reads 2D points, too.
@@ -183,6 +186,32 @@ pub fn read_points(path: &Path) -> Result<PointCloud, FileError> {
 /// Returns [`FileError::Read`] or [`FileError::Format`].
 pub fn read_edges(path: &Path) -> Result<Vec<[u32; 2]>, FileError> {
     crate::read_edges(&read(path)?).map_err(|source| FileError::Format { path: path.into(), source })
+}
+
+/// Reads the shapes of a file, where `-` is standard input. The points of a `.poly` file may be in the `.node` file
+/// beside it.
+///
+/// # Errors
+///
+/// Returns [`FileError::Read`] or [`FileError::Format`].
+pub fn read_shapes(path: &Path, format: ShapeFormat) -> Result<Shapes, FileError> {
+    let in_file = |path: &Path, source| FileError::Format { path: path.into(), source };
+    let bytes = if path == Path::new("-") { read_standard_input()? } else { read(path)? };
+    if format != ShapeFormat::Poly {
+        return format.read(&bytes).map_err(|source| in_file(path, source));
+    }
+    // An error of the other file has that one's name.
+    let mut other = None;
+    let shapes = poly::read(&bytes, || {
+        let node = path.with_extension("node");
+        let points =
+            read(&node).and_then(|bytes| tetgen::read_numbered_points(&bytes).map_err(|source| in_file(&node, source)));
+        points.map_err(|error| {
+            other = Some(error);
+            FormatError { at: Position::Line(1), what: "the points are in another file".into() }
+        })
+    });
+    shapes.map_err(|source| other.unwrap_or_else(|| in_file(path, source)))
 }
 
 /// Reads a mesh; the extension says in which format. For any of the three files of TetGen or

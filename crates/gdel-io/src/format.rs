@@ -1,8 +1,8 @@
 //! The formats by file extension.
 
 use crate::{
-    FormatError, Mesh, MeshData, PointCloud, e57, glb, las, npy, npz, obj, off, pcd, ply, ptx, raw, stl,
-    surface::Surface, tetgen, text, three_mf, vtu,
+    FormatError, Mesh, MeshData, PointCloud, Position, Shapes, e57, geojson, glb, las, npy, npz, obj, off, pcd, ply,
+    poly, ptx, raw, stl, surface::Surface, svg, tetgen, text, three_mf, vtu,
 };
 use gdel::Points;
 use std::io::{self, Write};
@@ -109,6 +109,18 @@ formats! {
         Glb: "glb",
         /// 3MF, for printing; units are millimetres.
         ThreeMf: "3mf",
+    }
+}
+
+formats! {
+    /// A format of shapes in a plane.
+    ShapeFormat {
+        /// GeoJSON: polygons with their holes, lines and points; heights are dropped.
+        GeoJson: "geojson" | "json",
+        /// Triangle's planar straight-line graphs: points, segments and places in holes.
+        Poly: "poly",
+        /// SVG: closed paths and basic shapes as boundaries, open ones as lines, with *y* up.
+        Svg: "svg",
     }
 }
 
@@ -273,6 +285,24 @@ impl SurfaceFormat {
             SurfaceFormat::Stl => stl::write_surface(to, surface),
             SurfaceFormat::Glb => glb::write_surface(to, surface),
             SurfaceFormat::ThreeMf => three_mf::write_surface(to, surface),
+        }
+    }
+}
+
+impl ShapeFormat {
+    /// Reads a whole file of this format. The points of a `.poly` file must be in it:
+    /// [`files::read_shapes`](crate::files::read_shapes) finds those in a `.node` file beside it, too.
+    ///
+    /// # Errors
+    ///
+    /// Returns where the file is broken, and how.
+    pub fn read(self, bytes: &[u8]) -> Result<Shapes, FormatError> {
+        match self {
+            ShapeFormat::GeoJson => geojson::read(bytes),
+            ShapeFormat::Svg => svg::read(bytes),
+            ShapeFormat::Poly => poly::read(bytes, || {
+                Err(FormatError { at: Position::Line(1), what: "the points are not in this file".into() })
+            }),
         }
     }
 }

@@ -93,7 +93,6 @@ impl<const D: usize> PointCloud<D> {
         PointCloud { colors: found, normals, ..self }
     }
 
-    /// Keeps the first `E` coordinates of each point.
     /// Returns the cloud with other points for the same rows of the file, without normals and sensors.
     pub fn with_points<const E: usize>(self, points: Vec<[f64; E]>) -> PointCloud<E> {
         PointCloud {
@@ -107,6 +106,7 @@ impl<const D: usize> PointCloud<D> {
         }
     }
 
+    /// Keeps the first `E` coordinates of each point.
     pub(super) fn resize<const E: usize>(self) -> PointCloud<E> {
         let loses_z = E < 3 && Points::from(&self.points).iter().any(|p| p.get(2).is_some_and(|&z| z != 0.0));
         PointCloud {

@@ -77,10 +77,15 @@ pub(super) fn read_node<const D: usize>(bytes: &[u8]) -> Result<PointCloud<D>, F
 }
 
 fn read_points<const E: usize>(bytes: &[u8]) -> Result<Vec<[f64; E]>, FormatError> {
+    read_numbered_points(bytes).map(|(points, _)| points)
+}
+
+/// Reads the points of a `.node` file, and the number of the first.
+pub(super) fn read_numbered_points<const E: usize>(bytes: &[u8]) -> Result<(Vec<[f64; E]>, i64), FormatError> {
     let rows = read_rows(bytes, "points", |field, line| {
         number(field.ok_or_else(|| FormatError::line(line, "a coordinate is missing"))?, line)
     })?;
-    Ok(rows.rows.into_iter().map(|row| row.entries).collect())
+    Ok((rows.rows.into_iter().map(|row| row.entries).collect(), rows.base))
 }
 
 /// Reads the vertices of the tetrahedra, or of the triangles in the orientation of
@@ -133,7 +138,7 @@ impl<const N: usize> Row<i64, N> {
 }
 
 /// Returns the lines that are neither empty nor comments, with their numbers.
-fn content(bytes: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
+pub(super) fn content(bytes: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
     lines(bytes)
         .map(|(line, content)| (line, content.split(|&b| b == b'#').next().unwrap_or_default().trim_ascii()))
         .filter(|(_, content)| !content.is_empty())
@@ -178,7 +183,7 @@ fn read_rows<T: Copy + Default, const N: usize>(
     Ok(Rows { rows, base })
 }
 
-fn integer(field: Option<&[u8]>, line: usize) -> Result<i64, FormatError> {
+pub(super) fn integer(field: Option<&[u8]>, line: usize) -> Result<i64, FormatError> {
     let field = field.ok_or_else(|| FormatError::line(line, "a number is missing"))?;
     std::str::from_utf8(field)
         .ok()

@@ -4,7 +4,7 @@
 mod samples;
 
 use gdel::{Mesh2, Mesh3};
-use gdel_io::{MeshFormat, PointFormat, read_neigh};
+use gdel_io::{MeshFormat, PointFormat, ShapeFormat, read_neigh};
 use peak_alloc::PeakAlloc;
 use rand::{RngExt, SeedableRng, seq::IndexedRandom};
 use rand_pcg::Pcg64Mcg;
@@ -91,6 +91,12 @@ fn readers() -> Vec<Reader> {
         readers.push(Reader { name: format!("{format:?}"), read, samples: of(&meshes) });
         let read = Box::new(move |bytes: Vec<u8>| drop(format.read::<Mesh2, _, _>(&bytes)));
         readers.push(Reader { name: format!("{format:?} in 2D"), read, samples: of(&meshes2) });
+    }
+    for &format in ShapeFormat::ALL {
+        let samples: Vec<_> = samples::shapes().into_iter().filter(|(of, _)| *of == format).collect();
+        let samples = samples.into_iter().map(|(_, bytes)| bytes).collect();
+        let read = Box::new(move |bytes: Vec<u8>| drop(format.read(&bytes)));
+        readers.push(Reader { name: format!("{format:?}"), read, samples });
     }
     let [neigh, neigh2] = samples::neighbors();
     let read = Box::new(|bytes: Vec<u8>| drop(read_neigh::<Mesh3, _, _>(&bytes)));

@@ -13,4 +13,5 @@ mod meshes;
 mod outputs;
 mod points;
 mod rasters;
+mod shapes;
 mod three_mf;

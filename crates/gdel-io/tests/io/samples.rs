@@ -4,7 +4,7 @@
 
 use e57::{E57Writer, Quaternion, Record, RecordDataType, RecordName, RecordValue, Translation};
 use gdel::{Mesh2, Mesh3};
-use gdel_io::{MeshFormat, PointFormat, write_ele, write_neigh, write_npz, write_vtu};
+use gdel_io::{MeshFormat, PointFormat, ShapeFormat, write_ele, write_neigh, write_npz, write_vtu};
 use las::{Builder, Point, Transform, Vector};
 use std::io::Cursor;
 
@@ -97,6 +97,66 @@ fn mesh2() -> (Vec<[f64; 2]>, Mesh2) {
     let mesh = gdel::delaunay2d(&points).expect("five points");
     (points, mesh)
 }
+
+/// Shapes in all formats: a square with a hole, a line, and what else a format has.
+pub fn shapes() -> Vec<(ShapeFormat, Vec<u8>)> {
+    vec![(ShapeFormat::GeoJson, GEOJSON.into()), (ShapeFormat::Svg, SVG.into()), (ShapeFormat::Poly, POLY.into())]
+}
+
+/// GeoJSON with all of its kinds of geometries.
+pub const GEOJSON: &str = r#"{"type": "FeatureCollection", "features": [
+  {"type": "Feature", "properties": {"name": "a"}, "id": 1, "geometry": {"type": "Polygon", "coordinates": [
+    [[0, 0, 5], [9, 0, 5], [9, 9, 5], [0, 9, 5], [0, 0, 5]], [[3, 3], [3, 6], [6, 6], [3, 3]]]}},
+  {"type": "Feature", "properties": null, "geometry": null},
+  {"type": "Feature", "properties": null, "geometry": {"type": "GeometryCollection", "geometries": [
+    {"type": "Point", "coordinates": [1, 1]},
+    {"type": "MultiPoint", "coordinates": [[0.5, 2], [1e-3, -2.5e2]]},
+    {"type": "LineString", "coordinates": [[1, 1], [2, 1], [2, 2], [1, 1]]},
+    {"type": "MultiLineString", "coordinates": [[], [[20, 0], [20, 1]]]},
+    {"type": "MultiPolygon", "coordinates": [[[[30, 0], [31, 0], [30, 1], [30, 0]]], []]}]}}]}
+"#;
+
+/// SVG with all shapes, transforms, and things that are left out.
+pub const SVG: &str = r##"<?xml version="1.0"?>
+<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 40 40">
+  <defs><path id="p" d="M0 0h1v1z"/></defs>
+  <path d="M0 0h9v9h-9z m3 3v3h3z"/>
+  <g transform="translate(10 20) scale(2)"><rect x="1" y="1" width="2" height="3"/><line x2="1" y2="1"/></g>
+  <g style="display: none"><rect width="1" height="1"/></g>
+  <rect x="20" y="1" width="8" height="6" rx="2"/>
+  <circle cx="20" cy="20" r="3"/><ellipse cx="30" cy="20" rx="2px" ry="1mm" transform="rotate(30 30 20)"/>
+  <polygon points="1,30 2,30 2,31"/><polyline points="5 30 6 30 6 31"/>
+  <path d="M10 30C12 28 14 32 16 30S18 32 20 30Q22 28 24 30T28 30A3 2 10 0 1 32 31"/>
+  <use href="#p"/><text>text</text><text>more</text>
+</svg>
+"##;
+
+/// A box with a hole and a region.
+pub const POLY: &str = "# box
+8 2 0 1
+1 0 0 7
+2 9 0 7
+3 9 9 7
+4 0 9 7
+5 3 3 0
+6 6 3 0
+7 6 6 0
+8 3 6 0
+
+    8 1
+1 1 2 1
+2 2 3 1
+3 3 4 1
+4 4 1 1
+5 5 6 2
+6 6 7 2
+7 7 8 2
+8 8 5 2
+1 # hole
+1 4.5 4.5
+1
+1 1 1 7 0.1
+";
 
 /// The `.neigh` files of a 3D and of a 2D mesh.
 pub fn neighbors() -> [Vec<u8>; 2] {
