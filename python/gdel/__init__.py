@@ -10,9 +10,10 @@
 Every sign is exact: grids, spheres, duplicates and flat input are ordinary input, and no simplex is flat.
 """
 
+from gdel._constrained import ConstrainedDelaunay
 from gdel._delaunay import Delaunay, VerifyReport, tsearch
 from gdel._derived import AlphaShape, SpanningTree, Surface, alpha_shape, minimum_spanning_tree, nearest, surface
-from gdel._gdel import GpuError, __version__, adapters
+from gdel._gdel import CrossingError, GpuError, __version__, adapters
 from gdel._interpolate import (
     CloughTocher2DInterpolator,
     LinearNDInterpolator,
@@ -24,6 +25,8 @@ from gdel._voronoi import Voronoi
 __all__ = [
     "AlphaShape",
     "CloughTocher2DInterpolator",
+    "ConstrainedDelaunay",
+    "CrossingError",
     "Delaunay",
     "GpuError",
     "LinearNDInterpolator",

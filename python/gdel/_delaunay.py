@@ -184,11 +184,16 @@ class Delaunay:
         if furthest_site:
             raise ValueError("there is no furthest-site triangulation: use scipy.spatial.Delaunay")
         array = as_points(points)
+        mesh = _gdel.triangulate(array, backend, threads, as_progress(progress))
+        self._take(State(mesh, array), backend, threads)
+
+    def _take(self, state: State, backend: Backend, threads: int | None) -> None:
+        """Take a mesh that was made with these options."""
         self._backend: Backend = backend
         self._threads = threads
         self._closed = False
         self._lock = threading.Lock()
-        self._state = State(_gdel.triangulate(array, backend, threads, as_progress(progress)), array)
+        self._state = state
 
     def __repr__(self) -> str:
         """Return a short description."""

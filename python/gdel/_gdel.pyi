@@ -6,11 +6,24 @@ import numpy.typing as npt
 
 from gdel._points import Backend, Floats, Indices, Points
 
-__all__ = ["GpuError", "Mesh", "Tree", "__version__", "adapters", "restore", "triangulate"]
+__all__ = [
+    "CrossingError",
+    "GpuError",
+    "Mesh",
+    "Tree",
+    "__version__",
+    "adapters",
+    "constrain",
+    "restore",
+    "triangulate",
+]
 
 __version__: str
 
 class GpuError(RuntimeError): ...
+
+class CrossingError(ValueError):
+    pairs: list[tuple[tuple[int, int], tuple[int, int]]]
 
 @final
 class Mesh:
@@ -24,6 +37,8 @@ class Mesh:
     def hull(self) -> Indices: ...
     @property
     def duplicate_of(self) -> Indices: ...
+    @property
+    def constraints(self) -> Indices: ...
     def vertex_simplex(self) -> Indices: ...
     def vertex_neighbors(self) -> tuple[npt.NDArray[np.intp], Indices]: ...
     def edges(self) -> Indices: ...
@@ -48,6 +63,7 @@ class Mesh:
     def surface(self, points: Points, options: dict[str, Any]) -> dict[str, Any]: ...
     def spanning_tree(self, points: Points) -> Tree: ...
     def verify(self, points: Points) -> dict[str, Any]: ...
+    def verify_constrained(self, points: Points, segments: Indices) -> dict[str, Any]: ...
     def update(self, points: Points, backend: Backend, progress: Callable[[str, float], object] | None) -> Mesh: ...
     def insert(
         self, points: Points, new: Points, backend: Backend, progress: Callable[[str, float], object] | None
@@ -70,4 +86,15 @@ def triangulate(
     threads: int | None,
     progress: Callable[[str, float], object] | None,
 ) -> Mesh: ...
+def constrain(
+    points: Points,
+    edges: npt.NDArray[np.uint32],
+    boundary: npt.NDArray[np.uint32],
+    holes: Floats,
+    fill: str,
+    is_split: bool,
+    backend: Backend,
+    threads: int | None,
+    progress: Callable[[str, float], object] | None,
+) -> tuple[Mesh, dict[str, Any]]: ...
 def restore(arrays: tuple[Indices, ...], dimension: int, threads: int | None) -> Mesh: ...

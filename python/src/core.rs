@@ -27,6 +27,8 @@ pub(crate) struct Arrays<const N: usize> {
     /// The facets of the hull, in 2D its vertices.
     pub(crate) hull: Vec<u32>,
     pub(crate) duplicate_of: Vec<u32>,
+    /// In 2D.
+    pub(crate) constraints: Vec<[u32; 2]>,
     pub(crate) dimension: u8,
 }
 
@@ -43,6 +45,8 @@ pub(crate) trait Core<const D: usize, const N: usize>:
     fn links(&self) -> &[[u32; N]];
     /// Returns the facets of the hull, in 2D its vertices.
     fn hull(&self) -> &[u32];
+    /// Returns the constrained edges; none in 3D.
+    fn constraints(&self) -> &[[u32; 2]];
     /// Returns the facets of the hull.
     fn hull_facets(&self) -> Vec<[u32; D]>;
     fn dimension(&self) -> u8;
@@ -157,6 +161,9 @@ impl Core<3, 4> for Mesh3 {
     fn hull(&self) -> &[u32] {
         self.hull.as_flattened()
     }
+    fn constraints(&self) -> &[[u32; 2]] {
+        &[]
+    }
     fn hull_facets(&self) -> Vec<[u32; 3]> {
         self.hull.clone()
     }
@@ -172,10 +179,14 @@ impl Core<2, 3> for Mesh2 {
         let mut mesh = Mesh2::default();
         (mesh.triangles, mesh.halfedges, mesh.hull) = (arrays.simplices, arrays.links, arrays.hull);
         (mesh.duplicate_of, mesh.dimension) = (arrays.duplicate_of, arrays.dimension);
+        mesh.constraints = arrays.constraints;
         mesh
     }
     fn hull(&self) -> &[u32] {
         &self.hull
+    }
+    fn constraints(&self) -> &[[u32; 2]] {
+        &self.constraints
     }
     fn hull_facets(&self) -> Vec<[u32; 2]> {
         self.hull_edges().collect()

@@ -6,7 +6,9 @@ use crate::{
     core::{Core, Data, Derives},
     tree::Tree,
 };
-use gdel::{AlphaShape, Open, Side, SpanningTree, Surface, SurfaceOptions, internals::geometry::Euclidean};
+use gdel::{
+    AlphaShape, Mesh2, MeshView2, Open, Side, SpanningTree, Surface, SurfaceOptions, internals::geometry::Euclidean,
+};
 use numpy::IntoPyArray;
 use pyo3::{exceptions::PyValueError, prelude::*, types::PyDict};
 
@@ -158,7 +160,23 @@ pub(crate) fn verify<'py, M: Core<D, N>, const D: usize, const N: usize>(
     threads: Option<usize>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let points = input.points::<D>()?;
-    let report = compute::run(py, threads, || data.mesh.verify(points))?;
+    report(py, &compute::run(py, threads, || data.mesh.verify(points))?)
+}
+
+pub(crate) fn verify_constrained<'py>(
+    data: &Data<Mesh2, 2, 3>,
+    py: Python<'py>,
+    input: &Input<'_>,
+    segments: &[[u32; 2]],
+    threads: Option<usize>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let points = input.points::<2>()?;
+    let mut view = MeshView2::from(&*data.mesh);
+    view.segments = Some(segments);
+    report(py, &compute::run(py, threads, || gdel::verify2d(points, view))?)
+}
+
+fn report<'py>(py: Python<'py>, report: &gdel::verify::Report) -> PyResult<Bound<'py, PyDict>> {
     let failures: Vec<(&str, String, usize)> =
         report.failures().map(|(check, defect, count)| (check.name(), defect.to_string(), count)).collect();
     let result = PyDict::new(py);

@@ -4,6 +4,7 @@
 
 mod arrays;
 mod compute;
+mod constrained;
 mod core;
 mod derived;
 mod errors;
@@ -36,9 +37,11 @@ fn gdel_module(module: &Bound<'_, PyModule>) -> PyResult<()> {
     compute::note_process();
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add("GpuError", module.py().get_type::<errors::GpuError>())?;
+    module.add("CrossingError", module.py().get_type::<errors::CrossingError>())?;
     module.add_class::<mesh::Mesh>()?;
     module.add_class::<tree::Tree>()?;
     module.add_function(wrap_pyfunction!(adapters, module)?)?;
     module.add_function(wrap_pyfunction!(mesh::triangulate, module)?)?;
+    module.add_function(wrap_pyfunction!(constrained::constrain, module)?)?;
     module.add_function(wrap_pyfunction!(mesh::restore, module)?)
 }

@@ -39,7 +39,7 @@ pub(crate) struct Mesh {
 }
 
 impl Mesh {
-    fn two(mesh: Mesh2, threads: Option<usize>) -> Self {
+    pub(crate) fn two(mesh: Mesh2, threads: Option<usize>) -> Self {
         Mesh { either: Either::Two(Data::new(mesh)), threads }
     }
 
@@ -74,24 +74,24 @@ pub(crate) fn triangulate(
 /// The arrays of a mesh and its dimension, as they are pickled.
 type State<'py> = (Vec<Bound<'py, PyAny>>, u8);
 
+/// What `state` has returned: simplices, links, the hull, duplicates and constraints.
+type Stored<'py> = (
+    PyReadonlyArray2<'py, i32>,
+    PyReadonlyArray2<'py, i32>,
+    PyReadonlyArray1<'py, i32>,
+    PyReadonlyArray1<'py, i32>,
+    PyReadonlyArray2<'py, i32>,
+);
+
 /// Returns the mesh of arrays that `state` has returned.
 #[pyfunction]
 #[pyo3(signature = (arrays, dimension, threads))]
-pub(crate) fn restore(
-    arrays: (
-        PyReadonlyArray2<'_, i32>,
-        PyReadonlyArray2<'_, i32>,
-        PyReadonlyArray1<'_, i32>,
-        PyReadonlyArray1<'_, i32>,
-    ),
-    dimension: u8,
-    threads: Option<usize>,
-) -> PyResult<Mesh> {
+pub(crate) fn restore(arrays: Stored<'_>, dimension: u8, threads: Option<usize>) -> PyResult<Mesh> {
     fn words(slice: &[i32]) -> &[u32] {
         bytemuck::cast_slice(slice)
     }
     fn parts<const N: usize>(
-        (simplices, links, hull, duplicate_of): (&[i32], &[i32], &[i32], &[i32]),
+        [simplices, links, hull, duplicate_of, constraints]: [&[i32]; 5],
         dimension: u8,
     ) -> Arrays<N> {
         Arrays {
@@ -99,11 +99,14 @@ pub(crate) fn restore(
             links: words(links).as_chunks().0.to_vec(),
             hull: words(hull).to_vec(),
             duplicate_of: words(duplicate_of).to_vec(),
+            constraints: words(constraints).as_chunks().0.to_vec(),
             dimension,
         }
     }
     let corners = arrays.0.shape()[1];
-    let slices = (arrays.0.as_slice()?, arrays.1.as_slice()?, arrays.2.as_slice()?, arrays.3.as_slice()?);
+    let (simplices, links, hull, duplicate_of, constraints) = &arrays;
+    let slices =
+        [simplices.as_slice()?, links.as_slice()?, hull.as_slice()?, duplicate_of.as_slice()?, constraints.as_slice()?];
     match corners {
         3 => Ok(Mesh::two(Mesh2::from_arrays(parts(slices, dimension)), threads)),
         4 => Ok(Mesh::three(Mesh3::from_arrays(parts(slices, dimension)), threads)),
@@ -146,6 +149,15 @@ impl Mesh {
         match &self.either {
             Either::Two(data) => arrays::view(py, data.mesh.clone(), &data.mesh.duplicate_of, None),
             Either::Three(data) => arrays::view(py, data.mesh.clone(), &data.mesh.duplicate_of, None),
+        }
+    }
+
+    /// The constrained edges; none in 3D.
+    #[getter]
+    fn constraints<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        match &self.either {
+            Either::Two(data) => arrays::view(py, data.mesh.clone(), data.mesh.constraints.as_flattened(), Some(2)),
+            Either::Three(data) => arrays::view(py, data.mesh.clone(), &[], Some(2)),
         }
     }
 
@@ -311,6 +323,21 @@ impl Mesh {
         in_dimension!(self, derived::verify(py, &Input::new(points)?, self.threads))
     }
 
+    /// What an exact check of a 2D mesh has found, whose constraints are to be those of these segments.
+    fn verify_constrained<'py>(
+        &self,
+        py: Python<'py>,
+        points: &Bound<'py, PyAny>,
+        segments: PyReadonlyArray2<'py, i32>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let input = Input::new(points)?;
+        let segments: &[u32] = bytemuck::cast_slice(segments.as_slice()?);
+        match &self.either {
+            Either::Two(data) => derived::verify_constrained(data, py, &input, segments.as_chunks().0, self.threads),
+            Either::Three(_) => Err(PyValueError::new_err("there are no constraints in 3D")),
+        }
+    }
+
     /// The mesh of the same points after they have moved.
     #[pyo3(signature = (points, backend, progress))]
     fn update(
@@ -407,6 +434,7 @@ fn state<'py, M: Core<D, N>, const D: usize, const N: usize>(
         view(mesh.links().as_flattened(), Some(N))?,
         view(mesh.hull(), None)?,
         view(mesh.duplicate_of(), None)?,
+        view(mesh.constraints().as_flattened(), Some(2))?,
     ];
     Ok((arrays, mesh.dimension()))
 }
@@ -426,6 +454,7 @@ fn updated<M: Core<D, N>, const D: usize, const N: usize>(
             links: Vec::new(),
             hull: Vec::new(),
             duplicate_of: old.duplicate_of().to_vec(),
+            constraints: old.constraints().to_vec(),
             dimension: old.dimension(),
         });
         by.update(&mut mesh, points)?;

@@ -27,7 +27,10 @@ def test_blocks_run(page, tmp_path, monkeypatch):
         exec(compile(block, page, "exec"), names)
 
 
-@pytest.mark.parametrize("module", ["", "._delaunay", "._voronoi", "._interpolate", "._derived", ".scipy"])
+MODULES = ["", "._constrained", "._delaunay", "._voronoi", "._interpolate", "._derived", ".scipy"]
+
+
+@pytest.mark.parametrize("module", MODULES)
 def test_examples_of_docstrings(module):
     found = doctest.testmod(importlib.import_module("gdel" + module))
     assert found.failed == 0

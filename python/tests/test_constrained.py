@@ -1,0 +1,136 @@
+"""Constrained Delaunay triangulations."""
+
+import pickle
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+import gdel
+
+POINTS = np.array([(0, 0), (9, 0), (9, 9), (0, 9), (3, 3), (6, 3), (6, 6), (3, 6), (5, 5)], np.float32)
+RINGS = [[0, 1, 2, 3], [4, 5, 6, 7, 4]]
+SQUARE = [(0, 0, 7), (9, 0, 7), (9, 9, 7), (0, 9, 7), (0, 0, 7)]
+HOLE = [(3, 3), (6, 3), (6, 6), (3, 6)]
+
+
+def area(tri: gdel.ConstrainedDelaunay) -> float:
+    """Return the area inside, of a triangulation that is right."""
+    report = tri.verify()
+    assert report, report.failures
+    return float(tri.volumes[tri.inside].sum())
+
+
+def test_rings_and_fill_rules() -> None:
+    tri = gdel.ConstrainedDelaunay(POINTS, rings=RINGS)
+    assert (tri.nsimplex, len(tri.inside_simplices), area(tri)) == (12, 8, 72)
+    assert tri.constraints.tolist() == [[0, 1], [0, 3], [1, 2], [2, 3], [4, 5], [4, 7], [5, 6], [6, 7]]
+    assert tri.is_constrained(7, 4)
+    assert not tri.is_constrained(0, 4)
+    assert len(set(tri.regions)) == 2
+    assert (tri.zero_length, len(tri.added), tri.moved) == (0, 0, 0)
+    assert tri.points.dtype == np.float32
+    holes = [(4, 5), (100, 100)]
+    assert area(gdel.ConstrainedDelaunay(POINTS, rings=RINGS, fill="enclosed", holes=holes)) == 72
+    for fill, inside in [("all", 81), ("evenodd", 72), ("nonzero", 81), ("enclosed", 81)]:
+        assert area(gdel.ConstrainedDelaunay(POINTS, rings=RINGS, fill=fill)) == inside
+
+
+def test_polygons_bring_their_points() -> None:
+    tri = gdel.ConstrainedDelaunay(None, polygons=[[SQUARE, HOLE, []], []])
+    assert (tri.npoints, area(tri)) == (8, 72)
+    shape = SimpleNamespace(__geo_interface__={"type": "MultiPolygon", "coordinates": [[SQUARE], [HOLE]]})
+    both = gdel.ConstrainedDelaunay([(1, 1), (20, 20)], edges=[(0, 0)], polygons=[shape])
+    assert (both.npoints, area(both), both.zero_length) == (10, 72, 1)
+    assert both.points[2].tolist() == [0, 0]
+    nothing = gdel.ConstrainedDelaunay(None, polygons=[])
+    assert (nothing.nsimplex, len(nothing.constraints)) == (0, 0)
+    flat = gdel.ConstrainedDelaunay(None, polygons=[[[(0, 0), (1, 1), (2, 2)]]])
+    assert (flat.dimension, len(flat.constraints)) == (1, 2)
+    assert area(flat) == 0
+
+
+def test_edges_lead_through_points() -> None:
+    tri = gdel.ConstrainedDelaunay(POINTS, edges=np.array([[0, 2], [8, 2]], np.uint8))
+    assert tri.constraints.tolist() == [[0, 4], [2, 6], [4, 8], [6, 8]]
+    assert tri.inside.all()
+    assert tri.verify()
+    plain = gdel.ConstrainedDelaunay(POINTS)
+    assert sorted(map(sorted, plain.simplices.tolist())) == sorted(
+        map(sorted, gdel.Delaunay(POINTS).simplices.tolist())
+    )
+
+
+def test_crossings() -> None:
+    points = [(0, 0), (3, 0), (3, 3), (0, 3)]
+    with pytest.raises(gdel.CrossingError, match="0–2 and 1–3") as raised:
+        gdel.ConstrainedDelaunay(points, edges=[(0, 2), (1, 3)])
+    assert raised.value.pairs == [((0, 2), (1, 3))]
+    assert isinstance(raised.value, ValueError)
+    tri = gdel.ConstrainedDelaunay(points, edges=[(0, 2), (1, 3)], crossings="split")
+    assert tri.points[tri.added].tolist() == [[1.5, 1.5]]
+    assert tri.segments.tolist() == [[0, 4], [4, 2], [1, 4], [4, 3]]
+    assert tri.verify()
+
+
+def test_the_verifier_looks_at_the_segments() -> None:
+    tri = gdel.ConstrainedDelaunay(POINTS, rings=RINGS)
+    tri._found["segments"] = tri.segments[1:]
+    assert not tri.verify()
+
+
+def test_pickling_keeps_constraints() -> None:
+    tri = gdel.ConstrainedDelaunay(POINTS, rings=RINGS)
+    copy = pickle.loads(pickle.dumps(tri))
+    assert copy.constraints.tolist() == tri.constraints.tolist()
+    assert area(copy) == 72
+    with pytest.raises(ValueError, match="constraints"):
+        copy.find_simplex((1, 1))
+
+
+def test_what_needs_a_delaunay_triangulation() -> None:
+    tri = gdel.ConstrainedDelaunay(POINTS, rings=RINGS)
+    for call in [
+        lambda: tri.find_simplex((1, 1)),
+        lambda: tri.nearest((1, 1)),
+        lambda: tri.update(POINTS),
+        lambda: tri.insert([(1, 1)]),
+        lambda: tri.remove([0]),
+        lambda: gdel.LinearNDInterpolator(tri, np.zeros(9))((1, 1)),
+        lambda: gdel.Voronoi(tri).vertices,
+        lambda: gdel.alpha_shape(tri),
+    ]:
+        with pytest.raises(ValueError, match="constraints"):
+            call()
+    assert tri.to_matplotlib().triangles.shape == (12, 3)
+    assert "8 constrained edges" in repr(tri)
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"edges": [0, 1]}, "rows of two indices"),
+        ({"edges": [(0, 9)]}, "edges has 9, which is not the index of one of the 9 points"),
+        ({"edges": [(0, -1)]}, "edges has -1"),
+        ({"edges": [(0, 1), (2,)]}, "edges cannot be an array"),
+        ({"rings": [[0, 1, 17]]}, r"rings\[0\] has 17"),
+        ({"rings": [[(0, 1)]]}, "a ring must be a list of indices"),
+        ({"polygons": [[[(0,)]]]}, r"ring 0 of polygons\[0\] must have rows of two coordinates"),
+        ({"polygons": [[[(0, np.nan), (0, 1)]]]}, "point 9: the y coordinate is NaN"),
+        ({"rings": RINGS, "fill": "odd"}, "fill must be"),
+        ({"rings": RINGS, "crossings": "keep"}, "crossings must be"),
+    ],
+)
+def test_bad_constraints(options: dict[str, object], message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        gdel.ConstrainedDelaunay(POINTS, **options)
+
+
+def test_wrong_types() -> None:
+    with pytest.raises(TypeError, match="whole numbers"):
+        gdel.ConstrainedDelaunay(POINTS, edges=[(0.0, 1.0)])
+    with pytest.raises(ValueError, match="2D only"):
+        gdel.ConstrainedDelaunay(np.zeros((3, 3)))
+    line = SimpleNamespace(__geo_interface__={"type": "LineString", "coordinates": SQUARE})
+    with pytest.raises(TypeError, match="not a LineString"):
+        gdel.ConstrainedDelaunay(None, polygons=[line])
