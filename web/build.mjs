@@ -173,6 +173,28 @@ const taskCode = (extension) => ({
   },
 });
 
+/** Builds the interface of another package, which imports the main entry. */
+async function buildInterface(name) {
+  for (const [extension, format] of Object.entries({ js: 'esm', cjs: 'cjs' })) {
+    const path = `./index.${extension}`;
+    const mainEntry = {
+      name: 'main-entry',
+      setup: (build) =>
+        build.onResolve({ filter: /^\.\/index\.js$/ }, () => ({ path, external: true })),
+    };
+    await esbuild.build({
+      entryPoints: [join(web, 'src', `${name}.ts`)],
+      outfile: join(dist, `${name}.${extension}`),
+      bundle: true,
+      minify: true,
+      keepNames: true,
+      format,
+      target: 'es2022',
+      plugins: [mainEntry],
+    });
+  }
+}
+
 /** For `require`: dynamic imports become calls of it, and the URL of the file is known. */
 const COMMON_JS = {
   format: 'cjs',
@@ -205,6 +227,7 @@ async function buildJs() {
   const names = 'Delaunator, Delaunator as default, GdelError';
   writeFileSync(join(dist, 'delaunator.js'), `export { ${names} } from './index.js';\n`);
   writeFileSync(join(dist, 'delaunator.cjs'), DELAUNATOR_CJS);
+  for (const name of ['cdt2d', 'constrainautor', 'earcut']) await buildInterface(name);
   say('declarations: tsc');
   run(process.execPath, [join(root, 'node_modules/typescript/bin/tsc'), '--project', web]);
   // The builds have one interface.

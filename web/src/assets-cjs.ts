@@ -19,11 +19,11 @@ export const code2d = () => import('./core-2d.js');
 const worker2d: WorkerAsset = { file: () => new URL('./worker-2d.js', import.meta.url) };
 export const module2d: ModuleAsset = { wasm: wasm2d, worker: worker2d, code: code2d };
 
-const wasmEdit: WasmAsset = {
+export const wasmEdit: WasmAsset = {
   name: 'edit',
   file: () => new URL('./gdel-edit.wasm', import.meta.url),
 };
-const codeEdit = () => import('./core-edit.js');
+export const codeEdit = () => import('./core-edit.js');
 const workerEdit: WorkerAsset = { file: () => new URL('./worker-edit.js', import.meta.url) };
 export const moduleEdit: ModuleAsset = { wasm: wasmEdit, worker: workerEdit, code: codeEdit };
 

@@ -12,8 +12,8 @@ export const code2d = () => import('./core-2d.js');
 const worker2d: WorkerAsset = { copy: () => import('text:d2') };
 export const module2d: ModuleAsset = { wasm: wasm2d, worker: worker2d, code: code2d };
 
-const wasmEdit: WasmAsset = { name: 'edit', copy: () => import('base64:edit') };
-const codeEdit = () => import('./core-edit.js');
+export const wasmEdit: WasmAsset = { name: 'edit', copy: () => import('base64:edit') };
+export const codeEdit = () => import('./core-edit.js');
 const workerEdit: WorkerAsset = { copy: () => import('text:edit') };
 export const moduleEdit: ModuleAsset = { wasm: wasmEdit, worker: workerEdit, code: codeEdit };
 

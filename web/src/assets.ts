@@ -42,12 +42,12 @@ const worker2d: WorkerAsset = {
 };
 export const module2d: ModuleAsset = { wasm: wasm2d, worker: worker2d, code: code2d };
 
-const wasmEdit: WasmAsset = {
+export const wasmEdit: WasmAsset = {
   name: 'edit',
   file: () => new URL('./gdel-edit.wasm', import.meta.url),
   copy: () => import('base64:edit'),
 };
-const codeEdit = () => import('./core-edit.js');
+export const codeEdit = () => import('./core-edit.js');
 const workerEdit: WorkerAsset = {
   start: () =>
     new Worker(new URL('./worker-edit.js', import.meta.url), {

@@ -31,7 +31,7 @@ import type { Done, Edit, Task } from './protocol.js';
 import type { Update } from './run.js';
 import type { AccessorOptions, Points, Stats, TaskOptions, UpdateOptions } from './types.js';
 import { Updating } from './updating.js';
-import { checkUnweighted } from './weights.js';
+import { checkDelaunay } from './weights.js';
 
 /** A mesh in typed arrays, of either dimension. */
 export abstract class Mesh extends Triangles {
@@ -87,7 +87,7 @@ export abstract class Mesh extends Triangles {
     edit?: Omit<Edit, 'before'>,
   ): Promise<Indices> {
     return this.#updating.run(async () => {
-      checkUnweighted(this);
+      checkDelaunay(this);
       const { points: before, mesh } = this._source();
       const { hull, dimension, stats } = this;
       const moved = { ...mesh, hull, dimension };

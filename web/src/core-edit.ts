@@ -1,10 +1,52 @@
 // The tasks of the module for meshes in the memory of the CPU that gain and lose points, and for
-// those of weighted points.
+// those of weighted points, and those with constraints.
 
 import makeGlue from 'glue:edit';
-import { type Core, coreOf, reporting, statsOfCpu } from './core.js';
+import type { Coordinates } from './arrays.js';
+import { blockingInstance } from './blocking.js';
+import { Constrained } from './constrained.js';
+import { constraintsOf, type Segments } from './constraints.js';
+import { type Core, coreOf, type ReportProgress, reporting, statsOfCpu } from './core.js';
+import { extrasOf } from './extras.js';
+import { coordinatesOf } from './given.js';
 import { instantiate } from './instance.js';
 import { outputsFor, withEmpty } from './outputs.js';
+import type { Tasks } from './protocol.js';
+import type { ConstraintOptions } from './types.js';
+
+export { extrasOf };
+
+/** Returns a result whose constraints have methods, which cannot be sent from a worker. */
+export const withConstraints = (result: Tasks['constrained']['result']) => ({
+  ...result,
+  constraints: new Constrained(result.constraints!, result.duplicateOf),
+});
+
+type Glue = ReturnType<typeof makeGlue>;
+
+/** Triangulates points with constraints. */
+const constrained = (
+  glue: Glue,
+  points: Coordinates,
+  { edges, boundary, holes, fill, isSplit }: Segments,
+  report: ReportProgress,
+): Tasks['constrained']['result'] => ({
+  points,
+  ...glue.constrained_triangulation(points, edges, boundary, holes, fill, isSplit, report),
+});
+
+/** Returns a function that triangulates with constraints before it returns; it throws a `PlainError`. */
+export function createBlocking(module: WebAssembly.Module) {
+  const instance = blockingInstance(() => instantiate(makeGlue, module));
+  return (points: unknown, options: ConstraintOptions) => {
+    const { edges, rings, polygons, holes, fill, crossings, ...others } = options;
+    const constraints = { edges, rings, polygons, holes, fill, crossings };
+    const given = constraintsOf(constraints, coordinatesOf(points, 2, others));
+    return withConstraints(
+      instance((glue) => constrained(glue, given.points, given.segments, () => false)),
+    );
+  };
+}
 
 export function openCore(module: WebAssembly.Module): Core {
   const { glue, memory } = instantiate(makeGlue, module);
@@ -28,6 +70,15 @@ export function openCore(module: WebAssembly.Module): Core {
         const mesh = glue.regular_triangulation(dimension, points, weights, wanted, report);
         if (dimension === 3) withEmpty(mesh);
         return { points, ...mesh, stats: statsOfCpu(mesh.stats, started, memory) };
+      },
+      async constrained({ points, backend, segments }, control) {
+        const started = performance.now();
+        control.onBlocking();
+        const report = reporting(control);
+        const mesh = constrained(glue, points, segments, report);
+        const stats = statsOfCpu(mesh.stats, started, memory);
+        if (backend !== 'cpu') stats.fallback = 'there are constraints, which only the CPU takes';
+        return { ...mesh, stats };
       },
     },
   });

@@ -6,6 +6,8 @@ export type GdelErrorCode =
   | 'NOT_FINITE'
   /** An argument has the wrong type, length or value. */
   | 'BAD_INPUT'
+  /** Constraints cross where there is no point; `pairs` are the first of them. */
+  | 'CROSSING_CONSTRAINTS'
   /** There are more points than can be triangulated. */
   | 'TOO_MANY_POINTS'
   /**
@@ -68,17 +70,20 @@ export class GdelError extends Error {
   readonly code: GdelErrorCode;
   /** The index of the point that caused the failure, if a point did. */
   declare readonly index?: number;
+  /** The segments that cross, in the order of the input: at most 16 pairs, each segment as its two ends. */
+  declare readonly pairs?: [[number, number], [number, number]][];
   /** The coordinates that were given away by `transfer: true`, given back. */
   declare readonly points?: Coordinates;
 
   constructor(
     code: GdelErrorCode,
     message: string,
-    options: { index?: number; cause?: unknown } = {},
+    options: Pick<PlainError, 'index' | 'pairs'> & { cause?: unknown } = {},
   ) {
     super(message, 'cause' in options ? { cause: options.cause } : undefined);
     this.code = code;
     if (options.index !== undefined) this.index = options.index;
+    if (options.pairs !== undefined) this.pairs = options.pairs;
   }
 }
 
@@ -86,15 +91,25 @@ export class GdelError extends Error {
 export interface PlainError {
   code: GdelErrorCode;
   message: string;
-  index?: number;
+  index?: number | undefined;
+  pairs?: GdelError['pairs'] | undefined;
   /** The WebAssembly instance is broken and must not be used again. */
   fatal: boolean;
   /** The points that the run was given. */
   points?: Coordinates;
 }
 
-export function toGdelError({ code, message, index }: PlainError): GdelError {
-  return new GdelError(code, message, index === undefined ? {} : { index });
+export function toGdelError({ code, message, ...details }: PlainError): GdelError {
+  return new GdelError(code, message, details);
+}
+
+/** Calls a function whose errors may be plain, or those of another file of the package. */
+export function thrown<R>(run: () => R): R {
+  try {
+    return run();
+  } catch (error) {
+    throw toGdelError(error as PlainError);
+  }
 }
 
 /** Gives coordinates back, in a property that consoles do not print: there can be millions. */
@@ -107,14 +122,15 @@ export function giveBack(error: GdelError, points: Coordinates): void {
  * or a trap, which ends the instance.
  */
 export function toPlainError(thrown: unknown, memoryBytes: number): PlainError {
-  const { code, message, index, fatal } = (
+  const { code, message, index, pairs, fatal } = (
     typeof thrown === 'object' && thrown ? thrown : {}
   ) as Partial<PlainError>;
   if (typeof code === 'string') {
     return {
       code,
       message: String(message),
-      ...(index === undefined ? {} : { index }),
+      index,
+      pairs,
       // What another thread threw says so.
       fatal: fatal ?? code === 'BAD_FILE',
     };

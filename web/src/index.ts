@@ -34,6 +34,7 @@ export type {
 } from './answers.js';
 export type { Bytes, Coordinates, Doubles, Indices, SignedIndices } from './arrays.js';
 export type { Mesh } from './changing.js';
+export type { Constrained, ConstrainedArrays } from './constrained.js';
 export { Delaunator } from './delaunator.js';
 export { SpanningTree, Surface3 } from './derived.js';
 export { GdelError, type GdelErrorCode } from './errors.js';
@@ -50,13 +51,14 @@ export {
 } from './resident.js';
 export { delaunaySphere, SphereMesh, type SphereOptions, SphereVoronoi } from './sphere.js';
 export type { ExactCounts, GpuStats, Round, SplayStats, UpdateStats } from './stats.js';
-export { delaunay2dSync, delaunay3dSync, load2d, load3d } from './sync.js';
+export { delaunay2dSync, delaunay3dSync, load2d, load3d, loadConstraints } from './sync.js';
 export {
   type GenerateOptions,
   generate,
   generate2d,
   type ReadOptions,
   readPoints,
+  readShapes,
   verify,
   verify2d,
 } from './tools.js';
@@ -67,8 +69,10 @@ export type {
   Backend,
   Check,
   ColorSource,
+  ConstraintOptions,
   Distribution,
   Distribution2,
+  Fill,
   MeshView,
   MeshView2,
   Output,
@@ -80,6 +84,7 @@ export type {
   Report2,
   RunOptions,
   RunOptions2,
+  Shapes,
   Stats,
   SyncOptions,
   TaskOptions,

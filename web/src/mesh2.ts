@@ -8,6 +8,7 @@ import type {
 } from './answers.js';
 import type { Bytes, Coordinates, Indices, SignedIndices } from './arrays.js';
 import { Mesh } from './changing.js';
+import type { Constrained } from './constrained.js';
 import { contours, locate, type Source, surface, voronoi } from './derived.js';
 import type { TriangleFormat } from './files.js';
 import { bad } from './options.js';
@@ -16,7 +17,7 @@ import type { Done } from './protocol.js';
 import { write } from './tools.js';
 import type { Points, TaskOptions } from './types.js';
 import { Voronoi2 } from './voronoi2.js';
-import { checkUnweighted } from './weights.js';
+import { checkDelaunay } from './weights.js';
 
 /** Where points are in a 2D mesh. */
 export interface Locations2 {
@@ -39,7 +40,8 @@ export interface Locations2 {
  * `Delaunator`'s `coords`, `triangles`, `halfedges` and `hull` works with this, too. All vertices
  * are indices of the input points.
  *
- * In files the triangles are counter-clockwise if the y axis points up, as other programs expect.
+ * In files the triangles are counter-clockwise if the y axis points up, as other programs expect. Files have the
+ * triangles inside the boundaries.
  */
 export class Mesh2 extends Mesh {
   /**
@@ -69,14 +71,20 @@ export class Mesh2 extends Mesh {
   declare readonly dimension: 0 | 1 | 2;
   /** The coordinates x, y, x, y, …: a copy of the input, or its buffer if that was transferred. */
   declare readonly coords: Coordinates;
+  /**
+   * What became of the options `edges`, `rings` and `polygons`; null without them. With constraints, `topology`,
+   * `geometry` and files work; what is derived from Delaunay triangulations fails with `BAD_INPUT`, as changes do.
+   */
+  declare readonly constraints: Constrained | null;
   /** The vertices around each vertex of these triangles. */
   #rings: [Indices, Rings] | undefined;
 
   /** @internal */
   _take({ result, place, weights = null }: Done<'delaunay2d'>): void {
     const { points: coords, stats, ...arrays } = result;
-    const hidden = result.hidden ?? new Uint32Array(0);
-    Object.assign(this, arrays, { coords, weights, hidden, stats: { ...stats, ...place } });
+    const { hidden = new Uint32Array(0), constraints = null } = result;
+    const extras = { weights, hidden, constraints };
+    Object.assign(this, arrays, { coords, ...extras, stats: { ...stats, ...place } });
   }
 
   /**
@@ -122,7 +130,7 @@ export class Mesh2 extends Mesh {
    * @param start A point near it, where the search begins.
    */
   find(x: number, y: number, start = 0): number {
-    checkUnweighted(this);
+    checkDelaunay(this);
     const { length } = this.duplicateOf;
     if (!Number.isInteger(start) || start < 0 || (start > 0 && start >= length))
       throw bad('the start', 'the index of a point', start);
@@ -132,6 +140,12 @@ export class Mesh2 extends Mesh {
     const vertex = first < 0 ? start : first === start ? this.hull[0]! : first;
     const [fx, fy] = this.factors ?? [1, 1];
     return findNearest(this, this.#ringsNow(), [x * fx!, y * fy!], vertex);
+  }
+
+  /** Returns the vertices of the triangles inside the boundaries, three each; without constraints, of all. */
+  insideTriangles(): Indices {
+    const { inside } = this.constraints ?? {};
+    return inside ? this.triangles.filter((_, e) => inside[(e / 3) | 0]) : this.triangles;
   }
 
   /** Returns the points that point `i` has an edge to; none for a duplicate. */
@@ -174,8 +188,14 @@ export class Mesh2 extends Mesh {
   /** @internal */
   _source(): Source {
     const { triangles, halfedges, duplicateOf, coords: points, factors } = this;
-    const weights = this.weights ?? undefined;
-    return { dimension: 2, points, factors, mesh: { triangles, halfedges, duplicateOf, weights } };
+    const { weights, constraints } = this;
+    const extras = { weights: weights ?? undefined, constraints: constraints ?? undefined };
+    return {
+      dimension: 2,
+      points,
+      factors,
+      mesh: { triangles, halfedges, duplicateOf, ...extras },
+    };
   }
 
   #ringsNow(): Rings {
@@ -189,7 +209,8 @@ export class Mesh2 extends Mesh {
   }
 
   #files(format: string, options: TaskOptions | undefined): Promise<Record<string, Bytes>> {
-    const { coords: points, triangles, halfedges } = this;
-    return write('write2d', { points, mesh: { triangles, halfedges }, format }, options);
+    const { coords: points, triangles, halfedges, constraints } = this;
+    const mesh = { triangles, halfedges, inside: constraints?.inside };
+    return write('write2d', { points, mesh, format }, options);
   }
 }

@@ -2,7 +2,7 @@
 
 import { isDetached } from './arrays.js';
 import { GdelError } from './errors.js';
-import type { Output, TaskOptions } from './types.js';
+import type { ConstraintOptions, Output, TaskOptions } from './types.js';
 
 /** Returns a value for a message: its class and length, or what it is. */
 export function nameOf(value: unknown): string {
@@ -25,6 +25,10 @@ export function optionsOf<T extends object>(options: T | undefined): Partial<T> 
     throw bad('the options', 'an object', options);
   return options;
 }
+
+/** Returns whether there are constraints. */
+export const hasConstraints = ({ edges, rings, polygons }: ConstraintOptions): boolean =>
+  Boolean(edges ?? rings ?? polygons);
 
 /** Returns an argument that has to be an object. */
 export function objectOf<T>(what: string, value: T): T & object {

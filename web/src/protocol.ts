@@ -19,6 +19,8 @@ import type {
   VoronoiArrays,
 } from './answers.js';
 import type { Bytes, Coordinates, Doubles, Indices, SignedIndices } from './arrays.js';
+import type { ConstrainedArrays } from './constrained.js';
+import type { Segments } from './constraints.js';
 import type { Buffer } from './device.js';
 import type { PlainError } from './errors.js';
 import type {
@@ -31,6 +33,7 @@ import type {
   Progress,
   Report,
   Report2,
+  Shapes,
   Stats,
   Trace,
   TriangulatorInfo,
@@ -52,6 +55,7 @@ export interface DerivedMesh {
   duplicateOf: SignedIndices;
   /** Without them it is the Delaunay triangulation. */
   weights?: Doubles | undefined;
+  constraints?: Pick<ConstrainedArrays, 'edges'> | undefined;
 }
 
 interface DerivedArgs {
@@ -156,6 +160,7 @@ export interface Tasks {
       dimension: 0 | 1 | 2;
       /** The hidden points, if there are weights that differ. */
       hidden?: Indices;
+      constraints?: ConstrainedArrays;
       /** Instead of the arrays, if it was requested. */
       resident?: MadeResident;
       key?: number;
@@ -187,8 +192,13 @@ export interface Tasks {
     };
     result: Tasks['delaunay3d' | 'delaunay2d']['result'];
   };
+  constrained: {
+    args: { points: Coordinates; backend: Backend; segments: Segments };
+    result: Tasks['delaunay2d']['result'];
+  };
   generate: { args: { kind: string; count: number; seed: bigint }; result: Doubles };
   readPoints: { args: { bytes: Uint8Array; extension: string }; result: PointCloud };
+  readShapes: { args: { bytes: Uint8Array; extension: string }; result: Shapes };
   write: {
     args: { points: Coordinates; mesh: MeshView; format: string };
     result: Record<string, Bytes>;
@@ -196,7 +206,7 @@ export interface Tasks {
   verify: { args: { points: Coordinates; mesh: MeshView }; result: Report };
   generate2d: { args: { kind: string; count: number; seed: bigint }; result: Doubles };
   write2d: {
-    args: { points: Coordinates; mesh: MeshView2; format: string };
+    args: { points: Coordinates; mesh: MeshView2 & { inside?: Bytes | undefined }; format: string };
     result: Record<string, Bytes>;
   };
   verify2d: { args: { points: Coordinates; mesh: MeshView2 }; result: Report2 };

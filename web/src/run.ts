@@ -1,37 +1,37 @@
 // Runs on points: triangulations from scratch, and updates of meshes whose points have moved.
 
-import { module2d, module3d, moduleEdit } from '#assets';
-import type { Doubles } from './arrays.js';
+import { codeEdit, module2d, module3d, moduleEdit } from '#assets';
 import type { Device } from './device.js';
-import { GdelError } from './errors.js';
+import { GdelError, thrown } from './errors.js';
+import type { Extras } from './extras.js';
 import { bytesNow, type Held, isBuffer } from './held.js';
 import { Host, type Sending } from './host.js';
 import { memoryOf } from './memory.js';
 import {
-  bad,
   checkArrays,
   checkBoolean,
   checkFunction,
   checkOneOf,
+  hasConstraints,
   objectOf,
   optionsOf,
   taskOptions,
 } from './options.js';
 import { coordinatesInSlices, factorsOf, scaled } from './points.js';
 import type { Done, Edit, MovedMesh, Task, Tasks } from './protocol.js';
-import type { ModuleAsset } from './runtime.js';
+import { loadCode, type ModuleAsset } from './runtime.js';
 import type { UpdateStats } from './stats.js';
 import { throwIfAborted } from './stop.js';
 import type {
   AccessorOptions,
   Backend,
+  ConstraintOptions,
   Output,
   RunOptions,
   Stats,
   TaskOptions,
   UpdateOptions,
 } from './types.js';
-import { weightsOf } from './weights.js';
 
 export const BACKENDS: readonly Backend[] = ['auto', 'gpu', 'cpu'];
 
@@ -69,10 +69,11 @@ export const sharedMaker = (backend: Backend): Maker => ({
   backend,
 });
 
-export type AnyOptions = Omit<RunOptions, 'reuse'> & {
-  reuse?: object | undefined;
-  point?: unknown;
-};
+export type AnyOptions = Omit<RunOptions, 'reuse'> &
+  ConstraintOptions & {
+    reuse?: object | undefined;
+    point?: unknown;
+  };
 
 /** Triangulates points. What is small is copied before this returns. */
 export async function triangulate<T extends Task>(
@@ -83,18 +84,19 @@ export async function triangulate<T extends Task>(
   outputs: readonly Output[] = [],
 ): Promise<Done<T>> {
   const job = await prepare(maker, kind, points, options);
-  const { factors, weights } = job;
-  if (!weights) return { ...(await start(maker, kind, job, { outputs })), factors };
+  const { factors, weights, segments } = job;
   const { dimension } = kind;
   const { points: coordinates, backend } = job.args;
+  const run = <E extends 'regular' | 'constrained'>(task: E, args: Tasks[E]['args']) =>
+    maker.host.run(moduleEdit, task, args, job.sending, job.options);
+  if (segments) {
+    const done = await run('constrained', { points: coordinates, backend, segments });
+    const { withConstraints } = await loadCode(codeEdit);
+    return { ...done, result: withConstraints(done.result) } as unknown as Done<T>;
+  }
+  if (!weights) return { ...(await start(maker, kind, job, { outputs })), factors };
   const args = { dimension, points: coordinates, weights, outputs };
-  const { result, ...made } = await maker.host.run(
-    moduleEdit,
-    'regular',
-    args,
-    job.sending,
-    job.options,
-  );
+  const { result, ...made } = await run('regular', args);
   if (backend !== 'cpu')
     result.stats.fallback = 'the points are weighted, which only the CPU takes';
   // Equal weights have no effect.
@@ -181,13 +183,12 @@ export function updating<T extends Task>(
 }
 
 /** A run whose arguments are checked. */
-interface Job {
+interface Job extends Extras {
   args: Tasks['delaunay2d']['args'];
   sending: Sending;
   options: TaskOptions;
   /** By which the points were multiplied. */
   factors: readonly number[] | undefined;
-  weights: Doubles | undefined;
 }
 
 /** The last key of a mesh: meshes of instances that were replaced have keys of their own, too. */
@@ -238,13 +239,15 @@ async function prepare(
   const given = await coordinatesInSlices(points, { dimension, transfer, point }, () =>
     throwIfAborted(task.signal),
   );
+  let extras: Extras = { points: given };
+  if (hasConstraints(checked) || (checked.weights ?? checked.radii) !== undefined) {
+    const { extrasOf } = await loadCode(codeEdit);
+    extras = thrown(() => extrasOf(checked, given, dimension));
+  }
   const factors = factorsOf(rescale, given, dimension);
-  const coordinates = scaled(given, factors);
+  const coordinates = scaled(extras.points, factors);
   const spare = resident ? [] : memoryOf(arrays);
   const sending: Sending = { transfer: [coordinates.buffer, ...spare], isGiven: transfer };
-  const weights = weightsOf(checked, Math.floor(coordinates.length / dimension));
-  if (weights && resident) throw bad('the option resident', 'left out beside weights', resident);
-  if (weights && rescale) throw bad('the option rescale', 'left out beside weights', rescale);
   const args = { points: coordinates, backend, resident, spare, newKey: nextKey() };
-  return { args, sending, options: task, factors, weights };
+  return { ...extras, args, sending, options: task, factors };
 }

@@ -1,19 +1,20 @@
 // Triangulations in the calling thread, done when the function returns.
 
-import { code2d, code3d, wasm2d, wasm3d } from '#assets';
+import { code2d, code3d, codeEdit, wasm2d, wasm3d, wasmEdit } from '#assets';
 import type { Coordinates } from './arrays.js';
 import type { createBlocking as createBlocking2d } from './core-2d.js';
 import type { createBlocking as createBlocking3d } from './core-3d.js';
-import { GdelError, type PlainError, toGdelError } from './errors.js';
+import type { createBlocking as createConstraining } from './core-edit.js';
+import { GdelError, thrown } from './errors.js';
+import { coordinatesOf } from './given.js';
 import { Mesh3 } from './mesh.js';
 import { Mesh2 } from './mesh2.js';
 import { compiled } from './modules.js';
-import { checkFunction, optionsOf, outputsOf } from './options.js';
-import { coordinatesNow } from './points.js';
+import { hasConstraints, optionsOf, outputsOf } from './options.js';
 import type { Tasks } from './protocol.js';
 import { IN_2D, IN_3D, sharedMaker, updating } from './run.js';
 import { loadCode, type WasmAsset } from './runtime.js';
-import type { AccessorOptions, Place, Points, SyncOptions } from './types.js';
+import type { AccessorOptions, ConstraintOptions, Place, Points, SyncOptions } from './types.js';
 
 /** Something that is loaded once, for functions that cannot wait for it. */
 interface Loadable<T> {
@@ -74,6 +75,10 @@ const loadable2d: Loadable<Blocking<ReturnType<typeof createBlocking2d>>> = {
   start: () => blocking(wasm2d, code2d),
 };
 
+const loadableConstraints: Loadable<Blocking<ReturnType<typeof createConstraining>>> = {
+  start: () => blocking(wasmEdit, codeEdit),
+};
+
 /** Loads what {@link delaunay3dSync} needs. Later calls do nothing. */
 export function load3d(): Promise<void> {
   return load(loadable3d);
@@ -82,6 +87,11 @@ export function load3d(): Promise<void> {
 /** Loads what {@link delaunay2dSync} and `Delaunator` need. Later calls do nothing. */
 export function load2d(): Promise<void> {
   return load(loadable2d);
+}
+
+/** Loads what {@link delaunay2dSync} needs for constraints. Later calls do nothing. */
+export function loadConstraints(): Promise<void> {
+  return load(loadableConstraints);
 }
 
 /**
@@ -110,18 +120,25 @@ export function delaunay3dSync(points: unknown, options?: SyncOptions): Mesh3 {
   return new Mesh3({ result, place }, outputs, updating(sharedMaker('cpu'), IN_3D, {}, outputs));
 }
 
-/** Returns the same as `delaunay2d`; see {@link delaunay3dSync}. Needs {@link load2d}. */
-export function delaunay2dSync(points: Points): Mesh2;
+/**
+ * Returns the same as `delaunay2d`; see {@link delaunay3dSync}. Needs {@link load2d}, or with constraints
+ * {@link loadConstraints}.
+ */
+export function delaunay2dSync(points: Points, options?: ConstraintOptions): Mesh2;
 export function delaunay2dSync<T>(
   points: ArrayLike<T>,
-  options: Pick<AccessorOptions<T>, 'point'>,
+  options: ConstraintOptions & Pick<AccessorOptions<T>, 'point'>,
 ): Mesh2;
 export function delaunay2dSync(points: unknown, options?: object): Mesh2 {
+  const update = updating(sharedMaker('cpu'), IN_2D, {});
+  if (hasConstraints(optionsOf(options))) {
+    const { triangulate, place } = loaded(loadableConstraints, 'loadConstraints');
+    return new Mesh2({ result: thrown(() => triangulate(points, options!)), place }, update);
+  }
   const { triangulate, place } = loaded(loadable2d, 'load2d');
   const coordinates = coordinatesOf(points, 2, options);
   const arrays = thrown(() => triangulate.mesh(coordinates));
-  const result = { ...arrays, points: coordinates };
-  return new Mesh2({ result, place }, updating(sharedMaker('cpu'), IN_2D, {}));
+  return new Mesh2({ result: { ...arrays, points: coordinates }, place }, update);
 }
 
 /** Returns the arrays alone, for coordinates that are not copied. */
@@ -130,26 +147,4 @@ export function triangulate2dNow(
 ): Omit<Tasks['delaunay2d']['result'], 'points' | 'stats'> {
   const { triangulate } = loaded(loadable2d, 'Delaunator.load');
   return thrown(() => triangulate.arrays(coordinates));
-}
-
-/** Returns the coordinates of points of any form. */
-function coordinatesOf(points: unknown, dimension: number, options: object | undefined) {
-  const { point, outputs: _, ...others } = optionsOf(options) as Record<string, unknown>;
-  checkFunction('point', point);
-  const [option] = Object.keys(others).filter((key) => others[key] !== undefined);
-  if (option)
-    throw new GdelError('BAD_INPUT', `synchronous functions do not have the option ${option}`);
-  return coordinatesNow(points, {
-    dimension,
-    transfer: false,
-    point: point as AccessorOptions<unknown>['point'] | undefined,
-  });
-}
-
-function thrown<R>(run: () => R): R {
-  try {
-    return run();
-  } catch (error) {
-    throw toGdelError(error as PlainError);
-  }
 }

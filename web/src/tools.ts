@@ -23,6 +23,7 @@ import type {
   Points,
   Report,
   Report2,
+  Shapes,
   TaskOptions,
 } from './types.js';
 
@@ -94,6 +95,33 @@ export async function readPoints(
   data: Blob | ArrayBuffer | Uint8Array,
   options?: ReadOptions,
 ): Promise<PointCloud> {
+  return readFile('readPoints', data, options);
+}
+
+/**
+ * Reads the shapes of a file: GeoJSON, SVG, whose curves become lines that are at most 1/5000 of the larger side of the
+ * drawing away and whose *y* becomes −*y*, or Triangle's `.poly` with its points.
+ *
+ * ```ts
+ * const shapes = await readShapes(file);
+ * const mesh = await delaunay2d(shapes.points, shapes);
+ * mesh.insideTriangles(); // Uint32Array [ … ]
+ * ```
+ *
+ * @throws {@link GdelError} as {@link readPoints}.
+ */
+export async function readShapes(
+  data: Blob | ArrayBuffer | Uint8Array,
+  options?: ReadOptions,
+): Promise<Shapes> {
+  return readFile('readShapes', data, options);
+}
+
+async function readFile<T extends 'readPoints' | 'readShapes'>(
+  kind: T,
+  data: Blob | ArrayBuffer | Uint8Array,
+  options: ReadOptions | undefined,
+): Promise<Tasks[T]['result']> {
   const { name, format } = optionsOf(options);
   for (const [option, value] of Object.entries({ name, format }))
     if (value !== undefined && typeof value !== 'string')
@@ -110,7 +138,7 @@ export async function readPoints(
   }
   const bytes = await bytesOf(data);
   const args = { bytes, extension: extension.replace(/^\./, '') };
-  return run('readPoints', args, task, [bytes.buffer]);
+  return run(kind, args, task, [bytes.buffer]);
 }
 
 /** Returns the content of a file as an array that nobody else uses. */
@@ -163,7 +191,16 @@ function viewOf(mesh: MeshView | MeshView2, simplices: string, neighbors: string
     dimension: dimensionOf(mesh.dimension),
     weights: optional({ weights: mesh.weights ?? undefined }, 'weights', 'Float64Array'),
     hidden: optional(mesh, 'hidden', 'Uint32Array'),
+    constraints: constraintsOf(mesh as MeshView2),
   };
+}
+
+/** Returns the constraints of a mesh in 2D that the verifier looks at, checked. */
+function constraintsOf({ constraints }: Pick<MeshView2, 'constraints'>) {
+  if (!constraints) return undefined;
+  objectOf('the constraints', constraints);
+  const edges = required(constraints, 'edges', 'Uint32Array');
+  return { edges, segments: optional(constraints, 'segments', 'Uint32Array') };
 }
 
 interface Kinds {

@@ -1,4 +1,4 @@
-import type { Bytes, Coordinates, Indices } from './arrays.js';
+import type { Bytes, Coordinates, Doubles, Indices } from './arrays.js';
 import type { Stats as RunStats } from './stats.js';
 
 /**
@@ -91,8 +91,42 @@ export interface RunOptions extends TaskOptions {
   reuse?: MeshView | undefined;
 }
 
+/** Which triangles are inside the boundaries of a mesh: see {@link ConstraintOptions.fill}. */
+export type Fill = 'all' | 'evenodd' | 'nonzero' | 'enclosed';
+
+/**
+ * Segments that are to be edges of a 2D mesh, which is then the constrained Delaunay triangulation: unique, whatever
+ * their order. A segment that leads through a point is two segments there, exactly. Segments may overlap, and may be
+ * given several times; those whose ends are equal are ignored. The CPU computes the mesh. Not together with `weights`,
+ * `radii`, `rescale` or `resident`.
+ */
+export interface ConstraintOptions {
+  /** Segments that bound nothing, such as breaklines: pairs of indices of points, or two indices each in one array. */
+  edges?: ArrayLike<number> | ArrayLike<ArrayLike<number>> | undefined;
+  /** Boundaries through given points: closed polygons as arrays of indices. */
+  rings?: ArrayLike<ArrayLike<number>> | undefined;
+  /**
+   * Boundaries that bring their own points, which follow the given ones: polygons as arrays of rings of positions, like
+   * the coordinates of a GeoJSON `MultiPolygon`. A last position that repeats the first one is left out.
+   */
+  polygons?: ArrayLike<ArrayLike<ArrayLike<ArrayLike<number>>>> | undefined;
+  /** Places in holes: the region around each is outside, whatever the fill rule, and segments separate regions. */
+  holes?: ArrayLike<ArrayLike<number>> | undefined;
+  /**
+   * Which triangles are inside: all; those from which a way out crosses boundaries an odd number of times; those
+   * around which boundaries wind, with turns in one direction less those in the other; or those from which no way
+   * leads out without crossing a segment, `edges` or not. Default: `'evenodd'` with `rings` or `polygons`, else `'all'`.
+   */
+  fill?: Fill | undefined;
+  /**
+   * What becomes of segments that cross where there is no point: an error of code `CROSSING_CONSTRAINTS`, or a point
+   * there, rounded to the nearest coordinates, which follows all others. Default: `'error'`.
+   */
+  crossings?: 'error' | 'split' | undefined;
+}
+
 /** Options for a 2D triangulation. */
-export interface RunOptions2 extends Omit<RunOptions, 'outputs' | 'reuse'> {
+export interface RunOptions2 extends Omit<RunOptions, 'outputs' | 'reuse'>, ConstraintOptions {
   /** As in 3D. */
   reuse?: MeshView2 | undefined;
 }
@@ -251,6 +285,24 @@ export interface PointCloud {
  */
 export type ColorSource = 'rgb' | 'intensity' | 'normals';
 
+/** The shapes of a file, as `delaunay2d` takes them: `delaunay2d(shapes.points, shapes)`. */
+export interface Shapes {
+  /** x, y, x, y, … */
+  points: Doubles;
+  /** Lines: pairs of indices of points. */
+  edges: Indices;
+  /** Closed polygons and outlines, by the indices of their points. */
+  rings: Indices[];
+  /** Places in holes, which `.poly` files have. */
+  holes: [number, number][];
+  /** What the format takes for the inside. */
+  fill: Fill;
+  /** Whether there were heights, which are dropped. */
+  droppedZ: boolean;
+  /** What was left out, such as `'2 text'`. */
+  leftOut: string[];
+}
+
 /** A property of a mesh, and what the verifier found about it. */
 export interface Check {
   /** The name of the property, such as `'orientation'` or `'delaunay'`. */
@@ -322,4 +374,9 @@ export interface MeshView2 {
   /** As in 3D. */
   weights?: Float64Array | null | undefined;
   hidden?: Uint32Array | undefined;
+  /**
+   * The constrained edges, across which triangles need not be Delaunay; with `segments`, it is verified that the edges
+   * are those of these segments and no others.
+   */
+  constraints?: { edges: Uint32Array; segments?: Uint32Array | undefined } | null | undefined;
 }

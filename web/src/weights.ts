@@ -34,7 +34,12 @@ export function weightsOf(
 }
 
 /** Checks that a mesh is a Delaunay triangulation, as its changes need. */
-export function checkUnweighted({ weights }: { weights: Doubles | null }): void {
-  if (weights)
+export function checkDelaunay(mesh: {
+  weights: Doubles | null;
+  constraints?: object | null;
+}): void {
+  if (mesh.weights)
     throw new GdelError('BAD_INPUT', 'this is not possible with a mesh of weighted points');
+  if (mesh.constraints)
+    throw new GdelError('BAD_INPUT', 'this is not possible with a mesh that has constraints');
 }

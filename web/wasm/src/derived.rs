@@ -125,6 +125,7 @@ impl OfCaller<2, 3> for Mesh2 {
         mesh.halfedges = caller.neighbors.unwrap_or_default();
         mesh.duplicate_of = caller.duplicate_of.unwrap_or_default();
         mesh.weights = caller.weights.unwrap_or_default();
+        mesh.constraints = caller.constraints.edges;
         Ok(mesh)
     }
 

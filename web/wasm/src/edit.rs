@@ -1,9 +1,10 @@
-//! Meshes in the memory of the CPU that gain and lose points, and those of weighted points.
+//! Meshes in the memory of the CPU that gain and lose points, those of weighted points, and those with constraints.
 
 use gdel::{
-    Error, Mesh2, Mesh3,
+    Constraints, Error, Fill, Mesh2, Mesh3,
     internals::{
         Options, Winding,
+        constrained::constrained,
         cpu::{
             Insert, MeshOf,
             edit::{Edit, Sparse, Used, delaunay_of_used, edit},
@@ -14,7 +15,7 @@ use gdel::{
     },
     stats::{Restart, UpdateStats},
 };
-use js_sys::{Float64Array, Function, Uint32Array};
+use js_sys::{Float64Array, Function, Uint8Array, Uint32Array};
 use std::sync::Arc;
 use wasm_bindgen::{
     JsCast,
@@ -27,7 +28,7 @@ use crate::{
         d3::{Outputs, mesh3},
     },
     mesh::CallerMesh,
-    objects::{Thrown, error, set},
+    objects::{Thrown, error, object, set},
     points::Coordinates,
     run::reporting,
 };
@@ -80,6 +81,53 @@ pub fn regular_triangulation(
     }
     let options = Options { winding: Winding::Clockwise, ..options };
     Ok(mesh2(regular::<2>(coordinates.points()?, &weights, &options)?, true))
+}
+
+/// Triangulates points in 2D with constraints, in delaunator's orientation. `edges` and `boundary` have two indices per
+/// segment, and `holes` two coordinates per place. The result has the points as well, if some were added.
+#[wasm_bindgen]
+pub fn constrained_triangulation(
+    points: JsValue,
+    edges: Vec<u32>,
+    boundary: Vec<u32>,
+    holes: Vec<f64>,
+    fill: &str,
+    is_split: bool,
+    report: Function,
+) -> Result<JsValue, Thrown> {
+    let options = Options { on_progress: Some(Arc::new(reporting(report))), ..Options::default() };
+    let mut coordinates = Coordinates::new(&points)?;
+    drop(points);
+    coordinates.flip_y();
+    let fill = match fill {
+        "evenodd" => Fill::EvenOdd,
+        "nonzero" => Fill::NonZero,
+        "enclosed" => Fill::Enclosed,
+        _ => Fill::All,
+    };
+    let constraints = Constraints::new().edges(edges.as_chunks().0).boundary(boundary.as_chunks().0).fill(fill);
+    let constraints = if is_split { constraints.split_crossings() } else { constraints };
+    let holes = holes.as_chunks().0.iter();
+    let constraints = holes.fold(constraints, |constraints, &[x, y]| constraints.hole([x, -y]));
+    let found = constrained(coordinates.points()?, &constraints, &options)?;
+    let inside: Vec<u8> = found.inside.iter().map(|&inside| u8::from(inside)).collect();
+    let constraints = object([
+        ("edges", Uint32Array::new_from_slice(found.mesh.constraints.as_flattened()).into()),
+        ("segments", Uint32Array::new_from_slice(found.segments.as_flattened()).into()),
+        ("inside", Uint8Array::new_from_slice(&inside).into()),
+        ("regions", Uint32Array::new_from_slice(&found.triangle_regions()).into()),
+        ("zeroLength", (found.zero_length as f64).into()),
+        ("added", (found.added.len() as f64).into()),
+        ("moved", found.moved.into()),
+    ]);
+    let mesh = mesh2(found.mesh, true);
+    set(&mesh, "constraints", constraints);
+    if !found.added.is_empty() {
+        coordinates.append(Coordinates::F64(found.added.into_flattened()));
+        coordinates.flip_y();
+        set(&mesh, "points", coordinates.into_js());
+    }
+    Ok(mesh)
 }
 
 /// What has become of a mesh.

@@ -28,6 +28,31 @@ pub(crate) struct CallerMesh<const N: usize, const H: usize> {
     pub(crate) dimension: Option<u8>,
     pub(crate) weights: Option<Vec<f64>>,
     pub(crate) hidden: Option<Vec<u32>>,
+    /// In 2D.
+    pub(crate) constraints: CallerConstraints,
+}
+
+/// The constraints of a mesh: its constrained edges, and the segments that these are pieces of.
+#[derive(Default)]
+pub(crate) struct CallerConstraints {
+    pub(crate) edges: Vec<[u32; 2]>,
+    #[cfg_attr(not(feature = "tools"), expect(dead_code, reason = "segments are for proofs"))]
+    pub(crate) segments: Option<Vec<[u32; 2]>>,
+}
+
+impl CallerConstraints {
+    fn new(mesh: &JsValue) -> Result<Self, Thrown> {
+        let constraints = get(mesh, "constraints");
+        if constraints.is_undefined() || constraints.is_null() {
+            return Ok(Self::default());
+        }
+        let pairs = |name: &str| {
+            property::<Uint32Array>(&constraints, name)?
+                .map(|array| rows(name, array.length(), |to| array.copy_to(to)))
+                .transpose()
+        };
+        Ok(CallerConstraints { edges: pairs("edges")?.unwrap_or_default(), segments: pairs("segments")? })
+    }
 }
 
 impl<const N: usize, const H: usize> CallerMesh<N, H> {
@@ -67,6 +92,7 @@ impl<const N: usize, const H: usize> CallerMesh<N, H> {
                     Ok::<_, Thrown>(values)
                 })
                 .transpose()?,
+            constraints: CallerConstraints::new(mesh)?,
         })
     }
 
@@ -106,6 +132,7 @@ impl From<CallerMesh<3, 1>> for Mesh2 {
         mesh.hull = caller.hull.unwrap_or_default().into_iter().flatten().collect();
         mesh.duplicate_of = caller.duplicate_of.unwrap_or_default();
         mesh.dimension = caller.dimension.unwrap_or(2);
+        mesh.constraints = caller.constraints.edges;
         mesh
     }
 }
@@ -124,7 +151,7 @@ pub(crate) fn get(object: &JsValue, name: &str) -> JsValue {
 }
 
 /// Returns a property that is an array, or `None` if it is undefined.
-fn property<T: JsCast>(object: &JsValue, name: &str) -> Result<Option<T>, Thrown> {
+pub(crate) fn property<T: JsCast>(object: &JsValue, name: &str) -> Result<Option<T>, Thrown> {
     let value = get(object, name);
     if value.is_undefined() {
         return Ok(None);

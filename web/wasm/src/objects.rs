@@ -1,6 +1,6 @@
 //! JavaScript objects from Rust values.
 
-use js_sys::{Object, Reflect};
+use js_sys::{Array, Object, Reflect};
 use wasm_bindgen::JsValue;
 
 use gdel::Error;
@@ -54,8 +54,8 @@ impl From<Error> for Thrown {
             Error::NotWholePoints { .. } | Error::ArrayShape { .. } | Error::ArrayLayout => "BAD_INPUT",
             Error::PointCount { .. } | Error::ValueCount { .. } | Error::EmptyBox { .. } => "BAD_INPUT",
             Error::DuplicateValues { .. } | Error::BadWeight { .. } | Error::WeightedMesh => "BAD_INPUT",
-            Error::BadConstraint { .. } | Error::CrossingConstraints { .. } => "BAD_INPUT",
-            Error::OpenBoundary { .. } | Error::ConstrainedMesh => "BAD_INPUT",
+            Error::BadConstraint { .. } | Error::OpenBoundary { .. } | Error::ConstrainedMesh => "BAD_INPUT",
+            Error::CrossingConstraints { .. } => "CROSSING_CONSTRAINTS",
             Error::BadAlpha | Error::BadOption { .. } | Error::BadIndex { .. } | Error::BrokenMesh { .. } => {
                 "BAD_INPUT"
             }
@@ -73,8 +73,14 @@ impl From<Error> for Thrown {
             _ => "INTERNAL",
         };
         let object = self::error(code, &error.to_string());
-        if let Error::NotFinite { index, .. } | Error::BadWeight { index } = error {
-            set(&object, "index", index as f64);
+        match error {
+            Error::NotFinite { index, .. } | Error::BadWeight { index } => set(&object, "index", index as f64),
+            Error::CrossingConstraints { pairs, .. } => {
+                let pair = |edge: [u32; 2]| Array::of2(&edge[0].into(), &edge[1].into());
+                let both = |[a, b]: [[u32; 2]; 2]| Array::of2(&pair(a), &pair(b));
+                set(&object, "pairs", pairs.into_iter().map(both).collect::<Array>());
+            }
+            _ => {}
         }
         Thrown(object)
     }

@@ -24,7 +24,7 @@ impl Coordinates {
     }
 
     /// Negates the *y* coordinates of 2D points.
-    #[cfg(any(feature = "tools", feature = "derived"))]
+    #[cfg(any(feature = "tools", feature = "derived", feature = "edit"))]
     pub(crate) fn flip_y(&mut self) {
         match self {
             Coordinates::F32(values) => values.iter_mut().skip(1).step_by(2).for_each(|y| *y = -*y),

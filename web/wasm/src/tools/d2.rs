@@ -1,16 +1,16 @@
 //! Files, verification and synthetic points in 2D. Meshes have delaunator's orientation.
 
 use gdel::{
-    Mesh2, MeshView2, NONE,
+    Constrained2, Mesh2, MeshView2, NONE,
     internals::d2::generate::{Distribution2, generate2d as generate},
     verify2d as verify,
 };
-use js_sys::Float64Array;
+use js_sys::{Float64Array, Uint8Array};
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
 use crate::{
-    mesh::{CallerMesh, points_of_mesh},
-    objects::Thrown,
+    mesh::{CallerMesh, points_of_mesh, property},
+    objects::{Thrown, error},
     tools::{files, generated, report_object},
 };
 
@@ -31,7 +31,19 @@ pub fn write2d(points: &JsValue, mesh: &JsValue, format: &str) -> Result<JsValue
     let points = coordinates.points::<2>()?;
     let caller = caller_mesh(mesh)?;
     caller.check_vertices(points)?;
+    let inside = property::<Uint8Array>(mesh, "inside")?;
+    if let Some(inside) = &inside
+        && (caller.simplices.len() != inside.length() as usize || caller.neighbors.is_none())
+    {
+        return Err(error("BAD_INPUT", "inside does not have one entry per triangle").into());
+    }
     let mut mesh = Mesh2::from(caller);
+    if let Some(inside) = inside {
+        let mut found = Constrained2::default();
+        found.inside = inside.to_vec().into_iter().map(|inside| inside != 0).collect();
+        found.mesh = mesh;
+        mesh = found.inside_mesh();
+    }
     for [_, b, c] in &mut mesh.triangles {
         std::mem::swap(b, c);
     }
@@ -55,8 +67,8 @@ pub fn verify2d(points: &JsValue, mesh: &JsValue) -> Result<JsValue, Thrown> {
     view.dimension = mesh.dimension;
     view.weights = mesh.weights.as_deref();
     view.hidden = mesh.hidden.as_deref();
-    // So far, meshes have no constraints here.
-    view.constraints = Some(&[]);
+    view.constraints = Some(&mesh.constraints.edges);
+    view.segments = mesh.constraints.segments.as_deref();
     // Delaunator's triangles are counter-clockwise where y points down. Without triangles, `hull`
     // is the collinear points in order, which has no orientation.
     if !mesh.simplices.is_empty() {

@@ -4,13 +4,14 @@ mod d2;
 mod d3;
 
 use gdel::{
-    Points,
+    Fill, Points,
     verify::{Check, Outcome, Report},
 };
 use gdel_io::{
-    Mesh, PointBuf, PointCloud, PointFormat, SurfaceFormat, write_ele, write_neigh, write_node, write_npz, write_vtu,
+    Mesh, PointBuf, PointCloud, PointFormat, ShapeFormat, SurfaceFormat, write_ele, write_neigh, write_node, write_npz,
+    write_vtu,
 };
-use js_sys::{Array, Float32Array, Float64Array, Uint8Array};
+use js_sys::{Array, Float32Array, Float64Array, Uint8Array, Uint32Array};
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
 use crate::{
@@ -55,6 +56,34 @@ pub fn read_points(bytes: &Uint8Array, extension: &str) -> Result<JsValue, Throw
         ("colorSource", source),
         ("normals", normals),
         ("sensors", sensors),
+    ]))
+}
+
+/// Reads shapes in the format of files with this extension.
+#[wasm_bindgen]
+pub fn read_shapes(bytes: &Uint8Array, extension: &str) -> Result<JsValue, Thrown> {
+    let format = ShapeFormat::from_extension(extension)
+        .ok_or_else(|| error("UNKNOWN_FORMAT", &format!("{extension:?} is not a known format of shapes")))?;
+    let mut content = zeros(bytes.length())?;
+    bytes.copy_to(&mut content);
+    let shapes = format.read(&content).map_err(|e| error("BAD_FILE", &e.to_string()))?;
+    let fill = match shapes.fill {
+        Fill::EvenOdd => "evenodd",
+        Fill::NonZero => "nonzero",
+        Fill::Enclosed => "enclosed",
+        _ => "all",
+    };
+    let rings: Array = shapes.rings.iter().map(|ring| Uint32Array::new_from_slice(ring)).collect();
+    let holes: Array = shapes.holes.iter().map(|&[x, y]| Array::of2(&x.into(), &y.into())).collect();
+    let left_out: Array = shapes.left_out.iter().map(|what| JsValue::from(what.as_str())).collect();
+    Ok(object([
+        ("points", Float64Array::new_from_slice(shapes.points.as_flattened()).into()),
+        ("edges", Uint32Array::new_from_slice(shapes.edges.as_flattened()).into()),
+        ("rings", rings.into()),
+        ("holes", holes.into()),
+        ("fill", fill.into()),
+        ("droppedZ", shapes.dropped_z.into()),
+        ("leftOut", left_out.into()),
     ]))
 }
 
