@@ -190,6 +190,26 @@ pub enum Error {
         /// The index of the first point with such a radius.
         index: usize,
     },
+    /// A mass is not a positive finite number.
+    #[error("mass {index} is not a positive number")]
+    BadMass {
+        /// The index of the first point with such a mass.
+        index: usize,
+    },
+    /// The cells cannot have the masses as volumes.
+    #[error("the sum of the masses is {masses}, but the volume that they are to fill is {volume}")]
+    MassSum {
+        /// The sum of the masses.
+        masses: String,
+        /// The volume, in 2D the area, of what the cells are clipped to.
+        volume: String,
+    },
+    /// Rounding keeps the cells from having the masses as exactly as was asked for.
+    #[error("cells with these masses were not found: they differ by {error} of a mass, more than the tolerance")]
+    TransportStopped {
+        /// The largest difference between a mass and a volume that was reached, as a share of the mass.
+        error: String,
+    },
     /// What was asked for exists for Delaunay triangulations only, and the mesh is one of weighted points.
     #[error("this is not possible with a mesh of weighted points")]
     WeightedMesh,
@@ -277,7 +297,7 @@ impl Error {
             AdapterOfDevice | OutOfMemory { .. } | Threads { .. } | Cancelled => false,
             PointCount { .. } | BadIndex { .. } | ValueCount { .. } | DuplicateValues { .. } | EmptyBox { .. } => false,
             BadAlpha | BadOption { .. } | BrokenMesh { .. } | BadWeight { .. } | BadRadius { .. } => false,
-            WeightedMesh | ConstrainedMesh => false,
+            WeightedMesh | ConstrainedMesh | BadMass { .. } | MassSum { .. } | TransportStopped { .. } => false,
             BadConstraint { .. } | CrossingConstraints { .. } | OpenBoundary { .. } => false,
         }
     }

@@ -29,6 +29,7 @@
 //! | What is the value at a point, given values at the vertices? | [`Interpolator`] |
 //! | Where do values at the points have a level? | [`Contours`] |
 //! | Which region belongs to each point, how large is it, who are its neighbours? | [`Voronoi`] |
+//! | With which weights do the cells have given volumes? | [`Triangulator::transport3d`] |
 //! | Which solid, or which surface, do the points describe? | [`AlphaShape`] |
 //! | What connects all points at the least length? Which clusters are there? | [`SpanningTree`] |
 //! | Which triangles has a polygon with holes, or a terrain with breaklines? | [`Triangulator::constrained2d`] |
@@ -103,8 +104,8 @@ pub use d3::{
 pub use derived::{
     AlphaComplex, AlphaShape, AlphaShape2, Cell, Clip, Contour, Contours, Contours2, Diagram, Duplicates, Evidence,
     FaceClass, Grid, Interpolated, Interpolation, Interpolator, Interpolator2, Interval, Location, Locator, Locator2,
-    Open, Outside, Side, SpanningTree, Sphere, Surface, SurfaceOptions, Voronoi, Voronoi2, WeightTable, lon_lat,
-    on_sphere,
+    Open, Outside, Side, SpanningTree, Sphere, Surface, SurfaceOptions, Transport, TransportOptions, Voronoi, Voronoi2,
+    WeightTable, lon_lat, on_sphere,
 };
 #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
 pub use derived::{DeviceLocator, DeviceLocator2, Locations};

@@ -1,5 +1,5 @@
 //! What is derived from a triangulation: point location, nearest vertices, interpolation, Voronoi
-//! diagrams, contours, alpha shapes, minimum spanning trees and closed surfaces, written once for 2D and 3D; and points
+//! diagrams and their weights for given volumes, contours, alpha shapes, minimum spanning trees and closed surfaces, written once for 2D and 3D; and points
 //! on a sphere.
 //!
 //! Signs are exact: which simplex contains a point, which vertex is nearest, which simplices belong
@@ -22,6 +22,7 @@ mod sets;
 mod sorted;
 mod sphere;
 mod surface;
+mod transport;
 mod tree;
 mod voronoi;
 
@@ -36,5 +37,6 @@ pub use locate::{Location, Locator, Locator2};
 pub use sets::DisjointSets;
 pub use sphere::{Sphere, lon_lat, on_sphere};
 pub use surface::{Evidence, Open, Side, Surface, SurfaceMesh, SurfaceOptions, crossing_facets};
+pub use transport::{Transport, TransportOptions, transport};
 pub use tree::SpanningTree;
 pub use voronoi::{Cell, Clip, Diagram, Voronoi, Voronoi2, VoronoiShapes};

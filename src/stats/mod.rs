@@ -141,6 +141,8 @@ pub enum Phase {
     Flip,
     /// Removing the ghosts and extracting the hull.
     Finish,
+    /// Finding the weights of [`Triangulator::transport3d`](crate::Triangulator::transport3d), which has no other phase.
+    Transport,
 }
 
 impl Phase {
@@ -156,6 +158,7 @@ impl Phase {
             Phase::Check => "check",
             Phase::Flip => "flip",
             Phase::Finish => "finish",
+            Phase::Transport => "transport",
         }
     }
 }

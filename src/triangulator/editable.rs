@@ -49,6 +49,14 @@ pub trait Editable<const D: usize>: Sealed + Sized {
     #[doc(hidden)]
     async fn update(&mut self, triangulator: &Triangulator, points: Points<'_, D>) -> Result<(), Error>;
 
+    #[doc(hidden)]
+    fn update_weights(
+        &mut self,
+        triangulator: &Triangulator,
+        points: Points<'_, D>,
+        weights: &[f64],
+    ) -> Result<(), Error>;
+
     /// Inserts the points of `points` that the mesh does not have yet, which are the last ones, and
     /// removes those with the indices in `removed`.
     #[doc(hidden)]
@@ -108,6 +116,26 @@ macro_rules! on_host {
                 Ok(())
             }
 
+            fn update_weights(
+                &mut self,
+                triangulator: &Triangulator,
+                points: Points<'_, $D>,
+                weights: &[f64],
+            ) -> Result<(), Error> {
+                check_count(self, points.len())?;
+                if self.has_constraints() {
+                    return Err(Error::ConstrainedMesh);
+                }
+                // Points of weighted meshes cannot be removed.
+                if self.unused_count() > 0 {
+                    return Err(Error::WeightedMesh);
+                }
+                let mut mesh = triangulator.regular::<$D>(points, weights)?;
+                mesh.stats.update = Some(UpdateStats::from_scratch(Restart::NotResident));
+                *self = mesh;
+                Ok(())
+            }
+
             async fn edit(
                 &mut self,
                 triangulator: &Triangulator,
@@ -148,6 +176,10 @@ macro_rules! resident {
                 let made = from_scratch(triangulator, points, used, Restart::NotResident).await?;
                 *self = self.changed_by_host(made).await?;
                 Ok(())
+            }
+
+            fn update_weights(&mut self, _: &Triangulator, _: Points<'_, $D>, _: &[f64]) -> Result<(), Error> {
+                Err(Error::WeightedMesh)
             }
 
             async fn edit(

@@ -64,6 +64,40 @@ impl Triangulator {
         mesh.update(self, points.into()).await
     }
 
+    /// Makes `mesh`, which is one of `points`, their [regular triangulation](Triangulator::regular3d) for other weights,
+    /// or for the first ones. Blocks the thread.
+    ///
+    /// So far the points are triangulated from scratch, which takes as long as it did before. Points that the old
+    /// weights hid come back, and with equal weights the mesh is the Delaunay triangulation again.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use gdel::{Backend, Triangulator};
+    ///
+    /// let points = [[0.0, 0.0], [4.0, 0.0], [4.0, 3.0], [0.0, 3.0], [2.0, 1.0f64]];
+    /// let triangulator = Triangulator::new().backend(Backend::Cpu);
+    /// let mut mesh = triangulator.regular2d(&points, &[0.0, 0.0, 0.0, 0.0, -9.0])?;
+    /// assert_eq!(mesh.hidden, [4]);
+    /// triangulator.update_weights(&mut mesh, &points, &[0.0, 0.0, 0.0, 0.0, 1.0])?;
+    /// assert_eq!((mesh.triangles.len(), mesh.hidden.len()), (4, 0));
+    /// # Ok::<(), gdel::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Triangulator::regular3d`], and [`Error::PointCount`] if the mesh is not one of as many
+    /// points, [`Error::ConstrainedMesh`] if it has constraints, and [`Error::WeightedMesh`] if points were removed from
+    /// it, or if it is on a device. After an error the mesh is what it was before.
+    pub fn update_weights<'a, const D: usize, M: Editable<D>>(
+        &self,
+        mesh: &mut M,
+        points: impl Into<Points<'a, D>>,
+        weights: &[f64],
+    ) -> Result<(), Error> {
+        mesh.update_weights(self, points.into(), weights)
+    }
+
     /// Inserts the points `new` into a mesh, and appends them to `points`, which are those of the
     /// mesh. Returns their indices. Blocks the thread.
     ///

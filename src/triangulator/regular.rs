@@ -55,7 +55,7 @@ impl Triangulator {
         self.regular(points.into(), weights)
     }
 
-    fn regular<const D: usize>(&self, points: Points<'_, D>, weights: &[f64]) -> Result<MeshOf<D>, Error>
+    pub(super) fn regular<const D: usize>(&self, points: Points<'_, D>, weights: &[f64]) -> Result<MeshOf<D>, Error>
     where
         Dimension<D>: Choice<D>,
     {

@@ -18,6 +18,7 @@ mod smooth;
 mod sphere;
 mod surface;
 mod surfaces_pinned;
+mod transport;
 mod tree;
 mod unused;
 mod voronoi;

@@ -7,7 +7,8 @@ use crate::{
     voronoi::{bounds, boxes},
 };
 use gdel::{
-    Cell, Clip, Error, Interpolator, Locator, Mesh, Mesh2, Mesh3, NONE, Points, Triangulator, Voronoi,
+    Backend, Cell, Clip, Editable, Error, Interpolator, Locator, Mesh, Mesh2, Mesh3, NONE, Points, Triangulator,
+    Voronoi,
     internals::{
         d2::generate::{Distribution2, generate2d},
         d3::generate::{Distribution3, generate3d},
@@ -20,7 +21,7 @@ use rand::RngExt;
 use rand_pcg::{Pcg64Mcg, rand_core::SeedableRng};
 
 /// What meshes of both dimensions say of their points.
-trait Weighted<const D: usize, const N: usize>: Mesh<D, N> + Sized {
+pub trait Weighted<const D: usize, const N: usize>: Mesh<D, N> + Sized {
     fn regular(points: &[[f64; D]], weights: &[f64]) -> Self;
     fn hidden(&self) -> &[u32];
     fn is_spanned(&self) -> bool;
@@ -605,4 +606,38 @@ fn what_is_not_possible() {
     mesh.weights.push(f64::NAN);
     assert_eq!(Locator::new(&mesh, &points).err(), Some(Error::BadWeight { index: 3 }));
     assert_eq!(Voronoi::new(&mesh, &points, Clip::Hull).err(), Some(Error::BadWeight { index: 3 }));
+}
+
+/// Steps of weights from none to such that hide many, and back.
+fn check_updates<M: Weighted<D, N> + Editable<D>, const D: usize, const N: usize>(
+    points: &[[f64; D]],
+    canonical: impl Fn(&M) -> Vec<[u32; N]>,
+) {
+    let triangulator = Triangulator::new().backend(Backend::Cpu);
+    let mut random = Pcg64Mcg::seed_from_u64(4);
+    let mut mesh = M::regular(points, &vec![0.0; points.len()]);
+    let mut weights = vec![0.0; points.len()];
+    let mut hidden = Vec::new();
+    for step in 0..100 {
+        let size = if step % 10 == 9 { 0.0 } else { 0.02 * f64::from(step % 10) };
+        weights.iter_mut().for_each(|w| *w = size * random.random::<f64>());
+        triangulator.update_weights(&mut mesh, Points::F64(points), &weights).unwrap();
+        let scratch = M::regular(points, &weights);
+        assert_eq!(canonical(&mesh), canonical(&scratch), "{step}");
+        assert_eq!((mesh.hidden(), mesh.weights()), (scratch.hidden(), scratch.weights()), "{step}");
+        hidden.push(mesh.hidden().len());
+    }
+    assert!(hidden.iter().any(|&count| count > points.len() / 10) && hidden[9] == 0, "{hidden:?}");
+    let before = canonical(&mesh);
+    weights[3] = f64::NAN;
+    let error = triangulator.update_weights(&mut mesh, Points::F64(points), &weights).unwrap_err();
+    assert_eq!((error, canonical(&mesh)), (Error::BadWeight { index: 3 }, before));
+    let error = triangulator.update_weights(&mut mesh, Points::F64(&points[1..]), &weights[1..]).unwrap_err();
+    assert_eq!(error, Error::PointCount { points: points.len() - 1, expected: points.len() });
+}
+
+#[test]
+fn a_hundred_steps_of_weights_are_those_of_runs_from_scratch() {
+    check_updates::<Mesh3, 3, 4>(&generate3d(Distribution3::Uniform, 300, 2), Mesh3::canonical);
+    check_updates::<Mesh2, 2, 3>(&generate2d(Distribution2::Uniform, 300, 2), Mesh2::canonical);
 }

@@ -33,7 +33,7 @@ use frame::Frame;
 use polytope::Polytope;
 use weights::Weights;
 use window::Window;
-pub(super) use window::check_box;
+pub(super) use window::{Convex, check_box};
 
 /// The number of cells that is worth handing to another thread.
 const GRAIN: usize = 1 << 8;

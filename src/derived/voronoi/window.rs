@@ -19,7 +19,7 @@ pub(super) enum Window<const D: usize> {
 
 /// A convex polygon or polyhedron: what of a box is on the inner sides of lines or planes.
 #[derive(Debug, Clone)]
-pub(super) struct Convex<const D: usize> {
+pub(in super::super) struct Convex<const D: usize> {
     pub(super) bounds: [[f64; D]; 2],
     /// The outer normals, and their products with the points of the lines or planes.
     pub(super) planes: Vec<([f64; D], f64)>,
@@ -51,11 +51,46 @@ impl<const D: usize> Window<D> {
 }
 
 impl<const D: usize> Convex<D> {
+    /// Creates the shape of a clip in the coordinates of the points, unless it is the hull or nothing. Returns a point
+    /// inside with it.
+    pub(in super::super) fn new<const N: usize>(clip: Clip<'_, D>) -> Result<Option<(Self, [f64; D])>, Error>
+    where
+        Euclidean: VoronoiShapes<D, N>,
+    {
+        let corners = match clip {
+            Clip::Box(ref bounds) => &bounds[..],
+            Clip::Convex(corners) => corners,
+            _ => return Ok(None),
+        };
+        let shape = match (clip, Window::new(clip, None)) {
+            (_, Ok(Window::Convex(shape))) => shape,
+            // A box without an inside, as points in a plane may have.
+            (Clip::Box(bounds), _) => Convex { bounds, planes: Vec::new() },
+            (_, result) => return result.map(|_| None),
+        };
+        let middle = corners.iter().fold([0.0; D], |sum, &p| vector::plus(sum, p));
+        Ok(Some((shape, vector::times(1.0 / corners.len() as f64, middle))))
+    }
+
     /// Returns whether a point is inside.
-    pub(super) fn contains(&self, p: [f64; D]) -> bool {
+    pub(in super::super) fn contains(&self, p: [f64; D]) -> bool {
         let [low, high] = self.bounds;
         (0..D).all(|axis| low[axis] <= p[axis] && p[axis] <= high[axis])
             && self.planes.iter().all(|&(normal, offset)| vector::dot(normal, p) <= offset)
+    }
+
+    /// Returns how many times a vector can be added to a point inside before it is outside.
+    pub(in super::super) fn reach(&self, from: [f64; D], along: [f64; D]) -> f64 {
+        let [low, high] = self.bounds;
+        let sides = (0..D).filter(|&axis| low[axis] < high[axis]).map(|axis| {
+            let end = if along[axis] < 0.0 { low[axis] } else { high[axis] };
+            (end - from[axis]) / along[axis]
+        });
+        let planes = self.planes.iter().map(|&(normal, offset)| {
+            let speed = vector::dot(normal, along);
+            if speed > 0.0 { (offset - vector::dot(normal, from)) / speed } else { f64::INFINITY }
+        });
+        sides.chain(planes).fold(f64::INFINITY, f64::min)
     }
 }
 
