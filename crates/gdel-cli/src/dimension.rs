@@ -3,7 +3,7 @@
 use super::failure::Failure;
 use clap::{ValueEnum, builder::PossibleValuesParser, builder::TypedValueParser, error::ErrorKind};
 use gdel::{
-    AlphaShape, Error, Mesh2, Mesh3, Points, Points2, Points3, Triangulator,
+    AlphaShape, Clip, Error, Mesh2, Mesh3, Points, Points2, Points3, Transport, TransportOptions, Triangulator,
     internals::{
         gpu::{device_mesh::MeshArrays, self_test::fingerprint},
         mesh,
@@ -43,6 +43,13 @@ pub(super) trait Triangulation<const D: usize, const N: usize>:
 {
     /// Triangulates points, which may have weights.
     fn triangulate(points: Points<'_, D>, weights: Option<&[f64]>, triangulator: &Triangulator) -> Result<Self, Error>;
+    /// Finds the weights with which the cells of points have given volumes.
+    fn transport(
+        points: Points<'_, D>,
+        clip: Clip<'_, D>,
+        options: &TransportOptions<'_>,
+        triangulator: &Triangulator,
+    ) -> Result<Transport, Error>;
     fn verify(points: Points<'_, D>, mesh: &Self) -> Result<Proof, Error>;
     fn verify_data(points: Points<'_, D>, mesh: &MeshData<D, N>) -> Result<Proof, Error>;
     /// Gives points in a plane of space the hull that files have: their polygon, from both sides.
@@ -66,6 +73,15 @@ impl Triangulation<3, 4> for Mesh3 {
             Some(weights) => triangulator.regular3d(points, weights),
             None => triangulator.delaunay3d(points),
         }
+    }
+
+    fn transport(
+        points: Points3<'_>,
+        clip: Clip<'_, 3>,
+        options: &TransportOptions<'_>,
+        triangulator: &Triangulator,
+    ) -> Result<Transport, Error> {
+        triangulator.transport3d(points, clip, options)
     }
 
     fn verify(points: Points3<'_>, mesh: &Self) -> Result<Proof, Error> {
@@ -102,6 +118,15 @@ impl Triangulation<2, 3> for Mesh2 {
             Some(weights) => triangulator.regular2d(points, weights),
             None => triangulator.delaunay2d(points),
         }
+    }
+
+    fn transport(
+        points: Points2<'_>,
+        clip: Clip<'_, 2>,
+        options: &TransportOptions<'_>,
+        triangulator: &Triangulator,
+    ) -> Result<Transport, Error> {
+        triangulator.transport2d(points, clip, options)
     }
 
     fn verify(points: Points2<'_>, mesh: &Self) -> Result<Proof, Error> {

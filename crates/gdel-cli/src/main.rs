@@ -3,6 +3,7 @@
 
 mod adapters;
 mod alpha;
+mod clip;
 mod constrain;
 mod contour;
 #[cfg(feature = "decimate")]
@@ -21,6 +22,7 @@ mod report;
 mod signals;
 mod sphere;
 mod surface;
+mod transport;
 mod tree;
 mod triangulate;
 mod verify;
@@ -59,6 +61,7 @@ enum Command {
     Interpolate(interpolate::Arguments),
     Contour(contour::Arguments),
     Voronoi(voronoi::Arguments),
+    Transport(transport::Arguments),
     Alpha(alpha::Arguments),
     Surface(surface::Arguments),
     Tree(tree::Arguments),
@@ -84,6 +87,7 @@ fn main() -> ExitCode {
         Command::Interpolate(arguments) => interpolate::run(&arguments),
         Command::Contour(arguments) => contour::run(&arguments),
         Command::Voronoi(arguments) => voronoi::run(&arguments),
+        Command::Transport(arguments) => transport::run(&arguments),
         Command::Alpha(arguments) => alpha::run(&arguments),
         Command::Surface(arguments) => surface::run(&arguments),
         Command::Tree(arguments) => tree::run(&arguments),

@@ -1,22 +1,19 @@
 //! `gdel voronoi`: the Voronoi cells of points.
 
 use super::{
+    clip::ClipShape,
     derive::{Common, Found, GridFormat, Number, parse_grid, write},
-    dimension::{Triangulation, in_dimension, read},
+    dimension::{Triangulation, in_dimension},
     failure::Failure,
     sphere,
     weights::Weights,
 };
-use clap::{Args, error::ErrorKind};
+use clap::Args;
 use gdel::{
-    Clip, Csr, NONE, Points, Voronoi,
+    Csr, NONE, Points, Voronoi,
     internals::{derived::VoronoiShapes, geometry::Euclidean},
 };
-use gdel_io::{
-    CellShape, Column, Grid, Table,
-    files::{Input, ResultOutput},
-};
-use std::path::{Path, PathBuf};
+use gdel_io::{CellShape, Column, Grid, Table, files::ResultOutput};
 
 /// Compute the Voronoi cells of points, or the cells of the power diagram if they have weights.
 #[derive(Args)]
@@ -28,7 +25,7 @@ pub(super) struct Arguments {
     /// What the cells are clipped to: `none`, the smallest `box` that contains all points, their convex
     /// `hull`, a box by its lowest and its highest coordinates (xmin,ymin,xmax,ymax or
     /// xmin,ymin,zmin,xmax,ymax,zmax), or a file with the corners of a convex polygon or polyhedron
-    #[arg(long, value_name = "SHAPE", default_value = "box", value_parser = parse_clip)]
+    #[arg(long, value_name = "SHAPE", default_value = "box", value_parser = ClipShape::parse)]
     #[arg(allow_hyphen_values = true)]
     clip: ClipShape,
     /// Take points as longitude and latitude in degrees: the cells cover the sphere. Areas are
@@ -39,48 +36,6 @@ pub(super) struct Arguments {
     /// and the neighbours of each point's cell as .csv; all arrays as .npz
     #[arg(short, long = "output", value_name = "FILE", value_parser = parse_output)]
     output: ResultOutput<GridFormat>,
-}
-
-#[derive(Debug, Clone)]
-enum ClipShape {
-    None,
-    Box,
-    Hull,
-    /// The lowest coordinates, then the highest.
-    Bounds(Vec<f64>),
-    /// The file with the corners.
-    Corners(PathBuf),
-}
-
-fn parse_clip(text: &str) -> Result<ClipShape, String> {
-    let bounds: Option<Vec<f64>> = text.split(',').map(|x| x.trim().parse().ok()).collect();
-    Ok(match (text, bounds) {
-        ("none", _) => ClipShape::None,
-        ("box", _) => ClipShape::Box,
-        ("hull", _) => ClipShape::Hull,
-        (_, Some(bounds)) => ClipShape::Bounds(bounds),
-        _ if Path::new(text).extension().is_some() => ClipShape::Corners(text.into()),
-        _ => return Err("`none`, `box`, `hull`, numbers with commas between them or a file is needed".into()),
-    })
-}
-
-impl ClipShape {
-    /// Returns the bounds of a box that is given.
-    fn bounds<const D: usize>(&self) -> Result<Option<[[f64; D]; 2]>, Failure> {
-        let ClipShape::Bounds(numbers) = self else { return Ok(None) };
-        if numbers.len() != 2 * D {
-            let what = format!("--clip needs {} numbers, not {}", 2 * D, numbers.len());
-            return Err(Failure::Usage(ErrorKind::ValueValidation, what));
-        }
-        Ok(Some([0, D].map(|first| std::array::from_fn(|axis| numbers[first + axis]))))
-    }
-
-    /// Reads the corners of a shape that is given.
-    fn corners<const D: usize>(&self) -> Result<Vec<[f64; D]>, Failure> {
-        let ClipShape::Corners(path) = self else { return Ok(Vec::new()) };
-        let corners = read::<D>(&Input::new(path, None)?)?;
-        Ok(Points::from(&corners).iter().collect())
-    }
 }
 
 fn parse_output(path: &str) -> Result<ResultOutput<GridFormat>, String> {
@@ -99,20 +54,13 @@ where
     Euclidean: VoronoiShapes<D, N>,
 {
     let Arguments { common, weights, clip, output, .. } = arguments;
-    let (given, corners) = (clip.bounds::<D>()?, clip.corners::<D>()?);
+    let shape = clip.read::<D>()?;
     let input = common.input()?;
     common.check(output, &[input.path()])?;
     let (cloud, weights) = weights.read::<D>(&input)?;
     let points = Points::from(&cloud);
     let (_, result) = common.run_weighted::<M, D, N, _>((points, weights.as_deref()), "voronoi", |mesh| {
-        let clip = match (clip, points.bounds()) {
-            (ClipShape::Hull, _) => Clip::Hull,
-            (ClipShape::Corners(_), _) => Clip::Convex(&corners),
-            (ClipShape::Bounds(_), _) => given.map_or(Clip::None, Clip::Box),
-            (ClipShape::Box, Some(bounds)) => Clip::Box(bounds),
-            _ => Clip::None,
-        };
-        let voronoi = Voronoi::new(mesh, points, clip)?;
+        let voronoi = Voronoi::new(mesh, points, shape.clip(points))?;
         let (result, volumes) = match output.format() {
             GridFormat::Npz => arrays(&voronoi),
             GridFormat::Csv => rows(&voronoi),

@@ -108,3 +108,32 @@ fn the_least_power_distance() {
     assert_eq!(nearest(&["--weights", "w"]), ["3", "3", "0", "3"]);
     assert_eq!(nearest(&["--radii", "r"]), ["3", "3", "0", "3"]);
 }
+
+/// The weights that `transport` finds make `voronoi` divide the box by the masses.
+#[test]
+fn transport() {
+    let folder = folder();
+    let path = folder.path();
+    fs::write(path.join("p.csv"), "x,y,m\n0,0,1\n4,0,2\n0,4,3\n4,4,4\n1,1,6\n1,1,4\n").unwrap();
+    let fixed = ["transport", "p.csv", "--dim", "2", "--masses", "m", "--clip", "0,0,5,4"];
+    let text = succeeds(path, &[&fixed[..], &["-o", "t.csv"]].concat());
+    assert!(text.contains("duplicates") && text.contains("steps"), "{text}");
+    let read = |name: &str| fs::read_to_string(path.join(name)).unwrap();
+    assert!(read("t.csv").starts_with("x,y,weight,area\n0.0,0.0,"), "{}", read("t.csv"));
+    succeeds(path, &["voronoi", "t.csv", "--dim", "2", "--weights", "weight", "--clip", "0,0,5,4", "-o", "v.csv"]);
+    let areas = read("v.csv");
+    let areas = areas.lines().skip(1).map(|line| line.split(',').nth(1).unwrap().parse::<f64>().unwrap());
+    // The last point is a duplicate, whose mass the one before has as well.
+    for (area, mass) in areas.zip([1.0, 2.0, 3.0, 4.0, 10.0, 0.0]) {
+        assert!((area - mass).abs() <= 0.0011 * mass, "{area} {mass}");
+    }
+    for output in ["t.npz", "t.vtu"] {
+        succeeds(path, &[&fixed[..], &["-o", output]].concat());
+        assert!(fs::read(path.join(output)).unwrap().len() > 300);
+    }
+    let run = |more: &[&str]| gdel(path, &[&fixed[..3], &["2"], more, &["-fo", "t.csv"]].concat());
+    fails_with(run(&["--masses", "m", "--clip", "0,0,5,5"]), "the sum of the masses is 20.0");
+    assert!(run(&["--masses", "m", "--clip", "0,0,5,5", "--normalize"]).status.success());
+    fails_with(run(&["--masses", "x"]), "mass 0 is not a positive number");
+    fails_with(run(&["--clip", "none"]), "a box, a convex shape or the hull");
+}
