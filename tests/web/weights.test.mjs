@@ -98,6 +98,73 @@ for (const [key, { triangulate, generate, verify, arrays }] of Object.entries(DI
     assert.ok(mesh.hidden.every((i) => vertexSimplex[i] === -1));
   });
 
+  test(`${D}D: weights that change`, async () => {
+    const points = await generate('uniform', 500, { seed: 13 });
+    const random = randomFrom(14);
+    const mesh = await triangulate(points);
+    for (const size of [0.05, 0, 0.01, 0.1]) {
+      const weights = Float64Array.from({ length: 500 }, () => size * random());
+      await mesh.updateWeights(weights);
+      const scratch = await triangulate(points, { weights });
+      assert.equal(inOrder(mesh), inOrder(scratch));
+      assert.deepEqual([mesh.hidden, mesh.weights], [scratch.hidden, scratch.weights]);
+      assert.equal((mesh.points ?? mesh.coords).length, D * 500);
+      assert.equal(mesh.stats.thread, scratch.stats.thread);
+    }
+    assert.ok(mesh.hidden.length > 0);
+    const before = inOrder(mesh);
+    await rejects(mesh.updateWeights([1, 2]), 'BAD_INPUT', /2 weights for 500 points/);
+    await rejects(mesh.updateWeights(), 'BAD_INPUT', /0 weights/);
+    assert.equal(inOrder(mesh), before);
+  });
+
+  test(`${D}D: transport finds the weights for given volumes`, async () => {
+    const points = await generate('uniform', 400, { seed: 11 });
+    const random = randomFrom(12);
+    const masses = Float64Array.from({ length: 400 }, () => 100 ** random());
+    const mesh = await triangulate(points);
+    const clip = [...Array(D).fill(-0.5), ...Array(D).fill(1)];
+    const phases = new Set();
+    const found = await mesh.transport({
+      masses,
+      normalize: true,
+      clip,
+      onProgress: ({ phase }) => phases.add(phase),
+    });
+    assert.deepEqual([...phases], ['transport']);
+    assert.ok(found.error <= 1e-3 && found.steps > 0);
+    const weighted = await triangulate(points, { weights: found.weights });
+    const { volumes } = await weighted.voronoi({ clip });
+    const share = 1.5 ** D / masses.reduce((sum, mass) => sum + mass);
+    volumes.forEach((volume, i) => {
+      assert.ok(Math.abs(volume - share * masses[i]) <= 1.001e-3 * share * masses[i], `${i}`);
+      assert.ok(Math.abs(volume - found.volumes[i]) <= 1e-9, `${i}`);
+    });
+    // Equal masses; the weights of a mesh do not count.
+    const [own, others] = [await mesh.transport({ clip }), await weighted.transport({ clip })];
+    assert.deepEqual(own.weights, others.weights);
+
+    const controller = new AbortController();
+    const onProgress = () => controller.abort();
+    const aborted = mesh.transport({
+      clip,
+      tolerance: 1e-9,
+      signal: controller.signal,
+      onProgress,
+    });
+    await rejects(aborted, 'ABORTED');
+    assert.deepEqual((await mesh.transport({ clip })).weights, own.weights);
+
+    await rejects(mesh.transport({ masses, clip }), 'BAD_INPUT', /sum of the masses/);
+    await rejects(mesh.transport({ masses: [1] }), 'BAD_INPUT', /400 numbers/);
+    const negative = masses.map((mass, i) => (i === 7 ? -1 : mass));
+    await rejects(mesh.transport({ masses: negative }), 'BAD_INPUT', /mass 7/);
+    await rejects(mesh.transport({ clip: 'none' }), 'BAD_INPUT', /without bounds/);
+    await rejects(mesh.transport({ tolerance: 0 }), 'BAD_INPUT', /between 0 and 1/);
+    await mesh.remove([3]);
+    await rejects(mesh.transport(), 'BAD_INPUT', /compact/);
+  });
+
   test(`${D}D: what needs a Delaunay triangulation says so`, async () => {
     const points = await generate('uniform', 100, { seed: 5 });
     const mesh = await triangulate(points, {

@@ -131,6 +131,36 @@ export interface VoronoiOptions extends TaskOptions {
   clip?: 'none' | 'box' | 'hull' | Bounds | { corners: Points } | undefined;
 }
 
+/** Options of `transport`. */
+export interface TransportOptions extends TaskOptions {
+  /** What the cells are clipped to, as for `voronoi`, but not `'none'`. Default `'box'`. */
+  clip?: 'box' | 'hull' | Bounds | { corners: Points } | undefined;
+  /**
+   * The mass of each point, which is the volume that its cell is to have, in 2D the area. By default all are
+   * equal.
+   */
+  masses?: ArrayLike<number> | undefined;
+  /**
+   * Whether masses are only compared with each other, as the numbers of a treemap are. By default their sum
+   * has to be the volume of what the cells are clipped to, within a millionth.
+   */
+  normalize?: boolean | undefined;
+  /** The share of its mass by which the volume of a cell may differ from it. Default 0.001. */
+  tolerance?: number | undefined;
+}
+
+/** Weights with which cells have given volumes. */
+export interface Transport {
+  /** The weight of each point, of which the least is 0. */
+  readonly weights: Doubles;
+  /** The volume of each point's cell; equal points share one by their masses. */
+  readonly volumes: Doubles;
+  /** The largest difference between the mass of a cell and its volume, as a share of the mass. */
+  readonly error: number;
+  /** The number of Newton's steps. */
+  readonly steps: number;
+}
+
 /** Options of `alphaShape`. */
 export interface AlphaOptions extends TaskOptions {
   /**

@@ -1,5 +1,6 @@
 // What meshes of both dimensions have in common: they change with their points, and answer questions.
 
+import { moduleEdit } from '#assets';
 import type {
   AlphaOptions,
   AlphaShape,
@@ -10,10 +11,13 @@ import type {
   InterpolationWeights,
   NearestOptions,
   Topology,
+  Transport,
+  TransportOptions,
 } from './answers.js';
 import type { Doubles, Indices, SignedIndices } from './arrays.js';
 import {
   alphaShape,
+  checkAllUsed,
   geometry,
   gradients,
   interpolate,
@@ -24,14 +28,16 @@ import {
   type SpanningTree,
   spanningTree,
   topology,
+  transport,
 } from './derived.js';
 import { Triangles } from './files.js';
-import { bad } from './options.js';
+import { bad, optionsOf, taskOptions } from './options.js';
 import type { Done, Edit, Task } from './protocol.js';
 import type { Update } from './run.js';
+import { runShared } from './shared.js';
 import type { AccessorOptions, Points, Stats, TaskOptions, UpdateOptions } from './types.js';
 import { Updating } from './updating.js';
-import { checkDelaunay } from './weights.js';
+import { checkDelaunay, weightsOf } from './weights.js';
 
 /** A mesh in typed arrays, of either dimension. */
 export abstract class Mesh extends Triangles {
@@ -97,6 +103,31 @@ export abstract class Mesh extends Triangles {
       const first = mesh.duplicateOf.length;
       const length = this._source().mesh.duplicateOf.length - first;
       return kept ?? Uint32Array.from({ length }, (_, i) => first + i);
+    });
+  }
+
+  /**
+   * Makes the mesh the regular triangulation of its points for other weights, or for its first ones. So far that
+   * takes as long as a run from scratch. Points that the old weights hid come back. When the promise is
+   * fulfilled, the arrays of the mesh are new; until then, and if it is rejected, the mesh is what it was.
+   *
+   * @throws {@link GdelError} `BAD_INPUT` for another number of weights, if one is not finite, if points were
+   * removed from the mesh or rescaled, or if the mesh is being changed; `ABORTED`.
+   */
+  async updateWeights(weights: ArrayLike<number>, options?: TaskOptions): Promise<void> {
+    await this.#updating.run(async () => {
+      const source = this._source();
+      const { dimension, points, mesh, factors } = source;
+      const given = weightsOf({ weights: weights ?? [] }, mesh.duplicateOf.length)!;
+      if (factors) throw bad('the weights', 'left out, since the points were rescaled', weights);
+      checkAllUsed(source);
+      const outputs = ['neighbors', 'hull', 'duplicateOf'] as const;
+      const args = { dimension, points, weights: given, outputs };
+      const result = await runShared(moduleEdit, 'regular', args, taskOptions(optionsOf(options)));
+      const { thread, whyThread, whyInlined } = this.stats;
+      const place = { thread, whyThread, whyInlined };
+      const made = { result: { ...result, points }, place, weights: result.hidden ? given : null };
+      this._take(made as Done<Task>);
     });
   }
 
@@ -252,5 +283,26 @@ export abstract class Mesh extends Triangles {
   /** Returns the Euclidean minimum spanning tree of the points, with single-linkage clusters. */
   async spanningTree(options?: TaskOptions): Promise<SpanningTree> {
     return spanningTree(this._source(), options);
+  }
+
+  /**
+   * Finds the weights with which the cell of each point in the power diagram has a given volume, its mass, by
+   * semi-discrete optimal transport. The points count, and not the weights of the mesh. Points may be outside
+   * of what the cells are clipped to; equal points share a cell.
+   *
+   * @example
+   *
+   * ```js
+   * const clip = [0, 0, 16, 9];
+   * const { weights } = await mesh.transport({ masses: [3, 1, 4, 1, 5], normalize: true, clip });
+   * await mesh.updateWeights(weights);
+   * const treemap = await mesh.voronoi({ clip });
+   * ```
+   *
+   * @throws {@link GdelError} `BAD_INPUT` for masses that are not positive or do not fit, or if rounding keeps
+   * the cells from being as exact as the tolerance; `ABORTED`.
+   */
+  async transport(options?: TransportOptions): Promise<Transport> {
+    return transport(this._source(), options);
   }
 }

@@ -15,6 +15,7 @@ type DerivedTask =
   | 'gradients'
   | 'contours'
   | 'voronoi'
+  | 'transport'
   | 'alphaShape'
   | 'surface'
   | 'spanningTree'
@@ -48,6 +49,8 @@ export function openCore(module: WebAssembly.Module): Core {
       glue.contours(dimension, points, mesh, values, levels, closed, report),
     voronoi: ({ dimension, points, mesh, clip, bounds }, report) =>
       glue.voronoi(dimension, points, mesh, clip, bounds, report),
+    transport: ({ dimension, points, clip, bounds, masses, options }, report) =>
+      glue.transport(dimension, points, clip, bounds, masses, options, report),
     alphaShape: ({ dimension, points, mesh, options }, report) =>
       glue.alphaShape(dimension, points, mesh, options, report),
     surface: ({ dimension, points, mesh, options }, report) =>

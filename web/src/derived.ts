@@ -11,10 +11,13 @@ import type {
   NearestOptions,
   SurfaceArrays,
   SurfaceOptions,
+  Transport,
+  TransportOptions,
   VoronoiArrays,
   VoronoiOptions,
 } from './answers.js';
 import { type Bytes, type Coordinates, type Doubles, type Indices, kindOf } from './arrays.js';
+import { GdelError } from './errors.js';
 import { type TriangleFormat, Triangles } from './files.js';
 import {
   bad,
@@ -214,23 +217,53 @@ export async function voronoi(
   options: VoronoiOptions | undefined,
 ): Promise<VoronoiArrays> {
   const { clip = 'none' } = optionsOf(options);
-  const length = 2 * source.dimension;
-  if (typeof clip === 'string' && !CLIPS.includes(clip))
-    throw bad('the option clip', `one of ${CLIPS.join(', ')}, or ${length} numbers`, clip);
   const task = taskOptions(optionsOf(options));
-  const args =
-    typeof clip === 'string'
-      ? { clip, bounds: new Float64Array(0) }
-      : clip !== null && typeof clip === 'object' && 'corners' in clip
-        ? {
-            clip: 'corners',
-            bounds: Float64Array.from(await copyOf(clip.corners, source.dimension, task)),
-          }
-        : {
-            clip: 'bounds',
-            bounds: numbersOf('the option clip', clip, length, 'the lowest corner and the highest'),
-          };
-  return run('voronoi', source, args, task);
+  return run('voronoi', source, await clipOf(source, clip, task), task);
+}
+
+/** Checks and copies what cells are clipped to. */
+async function clipOf(
+  { dimension }: Source,
+  clip: NonNullable<VoronoiOptions['clip']>,
+  task: TaskOptions,
+): Promise<{ clip: string; bounds: Doubles }> {
+  const length = 2 * dimension;
+  if (typeof clip === 'string') {
+    if (!CLIPS.includes(clip))
+      throw bad('the option clip', `one of ${CLIPS.join(', ')}, or ${length} numbers`, clip);
+    return { clip, bounds: new Float64Array(0) };
+  }
+  if (clip !== null && typeof clip === 'object' && 'corners' in clip) {
+    const bounds = Float64Array.from(await copyOf(clip.corners, dimension, task));
+    return { clip: 'corners', bounds };
+  }
+  const why = 'the lowest corner and the highest';
+  return { clip: 'bounds', bounds: numbersOf('the option clip', clip, length, why) };
+}
+
+/** Checks that no point was removed. */
+export function checkAllUsed({ mesh }: Source): void {
+  if (mesh.duplicateOf.some((of, i) => of === i))
+    throw new GdelError('BAD_INPUT', 'the mesh has points that were removed: call compact first');
+}
+
+export async function transport(
+  source: Source,
+  options: TransportOptions | undefined,
+): Promise<Transport> {
+  const { clip = 'box', masses, normalize = false, tolerance = 1e-3 } = optionsOf(options);
+  checkBoolean('normalize', normalize);
+  if (!(typeof tolerance === 'number' && tolerance > 0 && tolerance < 1))
+    throw bad('the option tolerance', 'a number between 0 and 1', tolerance);
+  checkAllUsed(source);
+  const task = taskOptions(optionsOf(options));
+  const count = source.points.length / source.dimension;
+  const args = {
+    ...(await clipOf(source, clip, task)),
+    masses: masses && numbersOf('the option masses', masses, count, 'one per point'),
+    options: { normalize, tolerance },
+  };
+  return run('transport', source, args, task);
 }
 
 export async function alphaShape(

@@ -29,6 +29,8 @@ export type {
   SurfaceArrays,
   SurfaceOptions,
   Topology,
+  Transport,
+  TransportOptions,
   VoronoiArrays,
   VoronoiOptions,
 } from './answers.js';

@@ -16,6 +16,8 @@ import type {
   SurfaceArrays,
   SurfaceOptions,
   Topology,
+  Transport,
+  TransportOptions,
   VoronoiArrays,
 } from './answers.js';
 import type { Bytes, Coordinates, Doubles, Indices, SignedIndices } from './arrays.js';
@@ -236,6 +238,15 @@ export interface Tasks {
     result: (Contour2 & Contour3)[];
   };
   voronoi: { args: DerivedArgs & { clip: string; bounds: Doubles }; result: VoronoiArrays };
+  transport: {
+    args: DerivedArgs & {
+      clip: string;
+      bounds: Doubles;
+      masses: Doubles | undefined;
+      options: Pick<TransportOptions, 'normalize' | 'tolerance'>;
+    };
+    result: Transport;
+  };
   alphaShape: {
     args: DerivedArgs & { options: AlphaOptions };
     result: AlphaShape;

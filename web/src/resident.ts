@@ -48,7 +48,8 @@ type Answer =
   | 'voronoi'
   | 'alphaShape'
   | 'surface'
-  | 'spanningTree';
+  | 'spanningTree'
+  | 'transport';
 
 /**
  * A mesh in buffers of the caller's device. Later runs do not change them. They can be bound as
@@ -234,6 +235,11 @@ export class ResidentMesh<Arrays, Mesh extends Mesh2 | Mesh3> {
   /** Does the same as {@link Mesh3.spanningTree}. */
   spanningTree(...args: Parameters<Mesh['spanningTree']>) {
     return this.#ask('spanningTree', args);
+  }
+
+  /** Does the same as {@link Mesh3.transport}. */
+  transport(...args: Parameters<Mesh['transport']>) {
+    return this.#ask('transport', args);
   }
 
   /** Derives something from the mesh. */

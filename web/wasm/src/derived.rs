@@ -18,6 +18,7 @@ use wasm_bindgen::{
 };
 
 mod sphere;
+mod transport;
 
 use crate::{
     mesh::{CallerMesh, get, points_of_mesh},
@@ -587,8 +588,34 @@ where
     Ok(found.into())
 }
 
-/// Returns the Voronoi diagram, clipped to nothing, the hull, the smallest box, one with these bounds, the
-/// lowest corner, then the highest, or the convex shape with these corners.
+/// Copies the corners of a shape.
+fn corners_of<const D: usize>(numbers: &Float64Array) -> Result<Vec<[f64; D]>, Thrown> {
+    let shape = numbers_of(numbers)?;
+    let corner = |start: usize| {
+        std::array::from_fn(|axis| if D == 2 && axis == 1 { -shape[start + axis] } else { shape[start + axis] })
+    };
+    Ok((0..shape.len() / D).map(|i| corner(D * i)).collect())
+}
+
+/// Returns what cells of points are clipped to: nothing, the hull, the smallest box, one with these corners, the
+/// lowest, then the highest, or the convex shape with these corners.
+fn clip_of<'c, const D: usize>(clip: &str, corners: &'c [[f64; D]], points: Points<'_, D>) -> Clip<'c, D> {
+    match (clip, points.bounds()) {
+        ("hull", _) => Clip::Hull,
+        ("box", Some(bounds)) => Clip::Box(bounds),
+        ("bounds", _) => {
+            let (mut low, mut high) = (corners[0], corners[1]);
+            if D == 2 {
+                (low[1], high[1]) = (high[1], low[1]);
+            }
+            Clip::Box([low, high])
+        }
+        ("corners", _) => Clip::Convex(corners),
+        _ => Clip::None,
+    }
+}
+
+/// Returns the Voronoi diagram, clipped as [`clip_of`] says.
 #[wasm_bindgen]
 pub fn voronoi(
     dimension: u32,
@@ -614,24 +641,8 @@ where
     let task = Task::<M>::new::<D, N>(points, mesh, report, "voronoi")?;
     let points = task.points.points::<D>()?;
     let used = Used::of(points, task.mesh.duplicate_of());
-    let shape = numbers_of(bounds)?;
-    let corner = |start: usize| {
-        std::array::from_fn(|axis| if D == 2 && axis == 1 { -shape[start + axis] } else { shape[start + axis] })
-    };
-    let corners: Vec<[f64; D]> = (0..shape.len() / D).map(|i| corner(D * i)).collect();
-    let clip = match (clip, used.as_ref().map_or(points, Used::points).bounds()) {
-        ("hull", _) => Clip::Hull,
-        ("box", Some(bounds)) => Clip::Box(bounds),
-        ("bounds", _) => {
-            let (mut low, mut high) = (corners[0], corners[1]);
-            if D == 2 {
-                (low[1], high[1]) = (high[1], low[1]);
-            }
-            Clip::Box([low, high])
-        }
-        ("corners", _) => Clip::Convex(&corners),
-        _ => Clip::None,
-    };
+    let corners = corners_of::<D>(bounds)?;
+    let clip = clip_of(clip, &corners, used.as_ref().map_or(points, Used::points));
     let voronoi = Voronoi::new(&task.mesh, points, clip)?;
     task.report(0.3)?;
     let diagram = voronoi.diagram();

@@ -22,7 +22,7 @@ mod objects;
 mod points;
 #[cfg(any(feature = "d2", feature = "d3"))]
 mod resident;
-#[cfg(any(feature = "d2", feature = "d3", feature = "edit"))]
+#[cfg(any(feature = "d2", feature = "d3", feature = "edit", feature = "derived"))]
 mod run;
 #[cfg(feature = "tools")]
 mod tools;

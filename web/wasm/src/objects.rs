@@ -55,6 +55,7 @@ impl From<Error> for Thrown {
             Error::PointCount { .. } | Error::ValueCount { .. } | Error::EmptyBox { .. } => "BAD_INPUT",
             Error::DuplicateValues { .. } | Error::BadWeight { .. } | Error::WeightedMesh => "BAD_INPUT",
             Error::BadConstraint { .. } | Error::OpenBoundary { .. } | Error::ConstrainedMesh => "BAD_INPUT",
+            Error::BadMass { .. } | Error::MassSum { .. } | Error::TransportStopped { .. } => "BAD_INPUT",
             Error::CrossingConstraints { .. } => "CROSSING_CONSTRAINTS",
             Error::BadAlpha | Error::BadOption { .. } | Error::BadIndex { .. } | Error::BrokenMesh { .. } => {
                 "BAD_INPUT"
@@ -74,7 +75,9 @@ impl From<Error> for Thrown {
         };
         let object = self::error(code, &error.to_string());
         match error {
-            Error::NotFinite { index, .. } | Error::BadWeight { index } => set(&object, "index", index as f64),
+            Error::NotFinite { index, .. } | Error::BadWeight { index } | Error::BadMass { index } => {
+                set(&object, "index", index as f64);
+            }
             Error::CrossingConstraints { pairs, .. } => {
                 let pair = |edge: [u32; 2]| Array::of2(&edge[0].into(), &edge[1].into());
                 let both = |[a, b]: [[u32; 2]; 2]| Array::of2(&pair(a), &pair(b));

@@ -27,6 +27,7 @@ pub(crate) fn reporting(report: Function) -> impl Fn(Progress) -> ControlFlow<()
 }
 
 /// Returns the statistics as the object that `web/src/stats.ts` describes.
+#[cfg_attr(not(any(feature = "d2", feature = "d3", feature = "edit")), expect(dead_code, reason = "there is no mesh"))]
 pub(crate) fn statistics(stats: &impl Field) -> JsValue {
     copy(stats.value())
 }
