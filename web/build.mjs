@@ -26,7 +26,14 @@ const dist = join(web, 'dist');
 const pkg = (name) => join(web, 'pkg', name);
 
 /** The wasm modules, each a feature of the crate in `wasm`, and their names in those of files. */
-const MODULES = { d3: '3d', d2: '2d', edit: 'edit', tools: 'tools', derived: 'derived' };
+const MODULES = {
+  d3: '3d',
+  d2: '2d',
+  edit: 'edit',
+  tools: 'tools',
+  derived: 'derived',
+  transport: 'transport',
+};
 
 const say = (text) => console.log(`build: ${text}`);
 // wasm-bindgen is there; wasm-opt is that of the npm package binaryen, since Debian's is too old

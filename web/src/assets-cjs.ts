@@ -35,6 +35,20 @@ const codeTools = () => import('./core-tools.js');
 const workerTools: WorkerAsset = { file: () => new URL('./worker-tools.js', import.meta.url) };
 export const moduleTools: ModuleAsset = { wasm: wasmTools, worker: workerTools, code: codeTools };
 
+const wasmTransport: WasmAsset = {
+  name: 'transport',
+  file: () => new URL('./gdel-transport.wasm', import.meta.url),
+};
+const codeTransport = () => import('./core-transport.js');
+const workerTransport: WorkerAsset = {
+  file: () => new URL('./worker-transport.js', import.meta.url),
+};
+export const moduleTransport: ModuleAsset = {
+  wasm: wasmTransport,
+  worker: workerTransport,
+  code: codeTransport,
+};
+
 const wasmDerived: WasmAsset = {
   name: 'derived',
   file: () => new URL('./gdel-derived.wasm', import.meta.url),

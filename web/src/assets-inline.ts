@@ -22,6 +22,18 @@ const codeTools = () => import('./core-tools.js');
 const workerTools: WorkerAsset = { copy: () => import('text:tools') };
 export const moduleTools: ModuleAsset = { wasm: wasmTools, worker: workerTools, code: codeTools };
 
+const wasmTransport: WasmAsset = {
+  name: 'transport',
+  copy: () => import('base64:transport'),
+};
+const codeTransport = () => import('./core-transport.js');
+const workerTransport: WorkerAsset = { copy: () => import('text:transport') };
+export const moduleTransport: ModuleAsset = {
+  wasm: wasmTransport,
+  worker: workerTransport,
+  code: codeTransport,
+};
+
 const wasmDerived: WasmAsset = { name: 'derived', copy: () => import('base64:derived') };
 const codeDerived = () => import('./core-derived.js');
 const workerDerived: WorkerAsset = { copy: () => import('text:derived') };

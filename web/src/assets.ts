@@ -76,6 +76,27 @@ const workerTools: WorkerAsset = {
 };
 export const moduleTools: ModuleAsset = { wasm: wasmTools, worker: workerTools, code: codeTools };
 
+const wasmTransport: WasmAsset = {
+  name: 'transport',
+  file: () => new URL('./gdel-transport.wasm', import.meta.url),
+  copy: () => import('base64:transport'),
+};
+const codeTransport = () => import('./core-transport.js');
+const workerTransport: WorkerAsset = {
+  start: () =>
+    new Worker(new URL('./worker-transport.js', import.meta.url), {
+      type: 'module',
+      name: 'gdel-transport',
+    }),
+  file: () => new URL('./worker-transport.js', here()),
+  copy: () => import('text:transport'),
+};
+export const moduleTransport: ModuleAsset = {
+  wasm: wasmTransport,
+  worker: workerTransport,
+  code: codeTransport,
+};
+
 const wasmDerived: WasmAsset = {
   name: 'derived',
   file: () => new URL('./gdel-derived.wasm', import.meta.url),

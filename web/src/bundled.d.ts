@@ -32,6 +32,11 @@ declare module 'glue:tools' {
   export default makeGlue;
 }
 
+declare module 'glue:transport' {
+  const makeGlue: MakeGlue<typeof import('../pkg/transport/gdel.js')>;
+  export default makeGlue;
+}
+
 declare module 'glue:derived' {
   const makeGlue: MakeGlue<typeof import('../pkg/derived/gdel.js')>;
   export default makeGlue;

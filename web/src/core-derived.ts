@@ -15,7 +15,6 @@ type DerivedTask =
   | 'gradients'
   | 'contours'
   | 'voronoi'
-  | 'transport'
   | 'alphaShape'
   | 'surface'
   | 'spanningTree'
@@ -49,8 +48,6 @@ export function openCore(module: WebAssembly.Module): Core {
       glue.contours(dimension, points, mesh, values, levels, closed, report),
     voronoi: ({ dimension, points, mesh, clip, bounds }, report) =>
       glue.voronoi(dimension, points, mesh, clip, bounds, report),
-    transport: ({ dimension, points, clip, bounds, masses, options }, report) =>
-      glue.transport(dimension, points, clip, bounds, masses, options, report),
     alphaShape: ({ dimension, points, mesh, options }, report) =>
       glue.alphaShape(dimension, points, mesh, options, report),
     surface: ({ dimension, points, mesh, options }, report) =>

@@ -1,6 +1,6 @@
 // What is derived from a mesh, in a WebAssembly module of its own.
 
-import { moduleDerived } from '#assets';
+import { moduleDerived, moduleTransport } from '#assets';
 import type {
   AlphaOptions,
   AlphaShape,
@@ -257,13 +257,17 @@ export async function transport(
     throw bad('the option tolerance', 'a number between 0 and 1', tolerance);
   checkAllUsed(source);
   const task = taskOptions(optionsOf(options));
-  const count = source.points.length / source.dimension;
+  const { dimension, points } = source;
+  const count = points.length / dimension;
   const args = {
+    dimension,
+    points,
     ...(await clipOf(source, clip, task)),
     masses: masses && numbersOf('the option masses', masses, count, 'one per point'),
     options: { normalize, tolerance },
   };
-  return run('transport', source, args, task);
+  checkArrays({ points });
+  return runShared(moduleTransport, 'transport', args, task);
 }
 
 export async function alphaShape(

@@ -42,7 +42,7 @@ import type {
 } from './types.js';
 
 /** The wasm modules. */
-export type ModuleName = 'd3' | 'd2' | 'edit' | 'tools' | 'derived';
+export type ModuleName = 'd3' | 'd2' | 'edit' | 'tools' | 'derived' | 'transport';
 
 export type CoreInfo = Omit<TriangulatorInfo, keyof Place>;
 
@@ -239,7 +239,7 @@ export interface Tasks {
   };
   voronoi: { args: DerivedArgs & { clip: string; bounds: Doubles }; result: VoronoiArrays };
   transport: {
-    args: DerivedArgs & {
+    args: Omit<DerivedArgs, 'mesh'> & {
       clip: string;
       bounds: Doubles;
       masses: Doubles | undefined;

@@ -2,8 +2,8 @@
 //! counter-clockwise by the negation of all *y*, which is undone in what is returned.
 
 use gdel::{
-    AlphaShape, Clip, Contours, Csr, Duplicates, Error, Grid, Interpolation, Interpolator, Location, Locator, Mesh,
-    Mesh2, Mesh3, Open, Outside, Points, Side, SpanningTree, Surface, SurfaceOptions, Voronoi,
+    AlphaShape, Contours, Csr, Duplicates, Error, Grid, Interpolation, Interpolator, Location, Locator, Mesh, Mesh2,
+    Mesh3, Open, Outside, Points, Side, SpanningTree, Surface, SurfaceOptions, Voronoi,
     internals::{
         cpu::edit::Used,
         derived::{SingularEdges, StolenMeasures, SurfaceMesh, VoronoiShapes, singular},
@@ -18,12 +18,12 @@ use wasm_bindgen::{
 };
 
 mod sphere;
-mod transport;
 
 use crate::{
-    mesh::{CallerMesh, get, points_of_mesh},
-    objects::{Thrown, error, object, set, signed},
-    points::{Coordinates, room, zeros},
+    clips::{clip_of, corners_of, numbers_of},
+    mesh::CallerMesh,
+    objects::{Thrown, error, get, object, set, signed},
+    points::{Coordinates, points_of_mesh, room},
 };
 
 /// The largest number of reports while queries are answered.
@@ -228,13 +228,6 @@ fn queries_of<const D: usize>(queries: &JsValue) -> Result<Coordinates, Thrown> 
         queries.flip_y();
     }
     Ok(queries)
-}
-
-/// Copies numbers.
-fn numbers_of(array: &Float64Array) -> Result<Vec<f64>, Thrown> {
-    let mut numbers = zeros(array.length())?;
-    array.copy_to(&mut numbers);
-    Ok(numbers)
 }
 
 /// Returns coordinates, interleaved.
@@ -586,33 +579,6 @@ where
         task.report(0.1 + 0.8 * (i + 1) as f64 / levels.len() as f64)?;
     }
     Ok(found.into())
-}
-
-/// Copies the corners of a shape.
-fn corners_of<const D: usize>(numbers: &Float64Array) -> Result<Vec<[f64; D]>, Thrown> {
-    let shape = numbers_of(numbers)?;
-    let corner = |start: usize| {
-        std::array::from_fn(|axis| if D == 2 && axis == 1 { -shape[start + axis] } else { shape[start + axis] })
-    };
-    Ok((0..shape.len() / D).map(|i| corner(D * i)).collect())
-}
-
-/// Returns what cells of points are clipped to: nothing, the hull, the smallest box, one with these corners, the
-/// lowest, then the highest, or the convex shape with these corners.
-fn clip_of<'c, const D: usize>(clip: &str, corners: &'c [[f64; D]], points: Points<'_, D>) -> Clip<'c, D> {
-    match (clip, points.bounds()) {
-        ("hull", _) => Clip::Hull,
-        ("box", Some(bounds)) => Clip::Box(bounds),
-        ("bounds", _) => {
-            let (mut low, mut high) = (corners[0], corners[1]);
-            if D == 2 {
-                (low[1], high[1]) = (high[1], low[1]);
-            }
-            Clip::Box([low, high])
-        }
-        ("corners", _) => Clip::Convex(corners),
-        _ => Clip::None,
-    }
 }
 
 /// Returns the Voronoi diagram, clipped as [`clip_of`] says.

@@ -1,11 +1,13 @@
 //! The WebAssembly bindings of the npm package: typed arrays in, typed arrays out, errors as
 //! `Error` objects with a `code`. The TypeScript in `web/src` is their only caller.
 //!
-//! The features `d3`, `d2`, `edit`, `tools` and `derived` are the modules of the package.
+//! The features `d3`, `d2`, `edit`, `tools`, `derived` and `transport` are the modules of the package.
 #![cfg(target_arch = "wasm32")]
 
 #[cfg(any(feature = "d2", feature = "d3", feature = "edit"))]
 mod arrays;
+#[cfg(any(feature = "derived", feature = "transport"))]
+mod clips;
 #[cfg(feature = "d2")]
 mod d2;
 #[cfg(feature = "d3")]
@@ -22,10 +24,12 @@ mod objects;
 mod points;
 #[cfg(any(feature = "d2", feature = "d3"))]
 mod resident;
-#[cfg(any(feature = "d2", feature = "d3", feature = "edit", feature = "derived"))]
+#[cfg(any(feature = "d2", feature = "d3", feature = "edit", feature = "transport"))]
 mod run;
 #[cfg(feature = "tools")]
 mod tools;
+#[cfg(feature = "transport")]
+mod transport;
 #[cfg(any(feature = "d2", feature = "d3"))]
 mod triangulator;
 

@@ -4,13 +4,11 @@
 use gdel::Points;
 #[cfg(any(feature = "edit", feature = "tools"))]
 use gdel::{Mesh2, Mesh3};
-use js_sys::{Float64Array, Int32Array, Reflect, Uint32Array};
+use js_sys::{Float64Array, Int32Array, Uint32Array};
 use wasm_bindgen::{JsCast, JsValue};
 
-#[cfg(any(feature = "tools", feature = "derived"))]
-use crate::points::Coordinates;
 use crate::{
-    objects::{Thrown, error},
+    objects::{Thrown, error, get},
     points::{room, zeros},
 };
 
@@ -135,19 +133,6 @@ impl From<CallerMesh<3, 1>> for Mesh2 {
         mesh.constraints = caller.constraints.edges;
         mesh
     }
-}
-
-/// Copies the points of a mesh, and checks them.
-#[cfg(any(feature = "tools", feature = "derived"))]
-pub(crate) fn points_of_mesh<const D: usize>(points: &JsValue) -> Result<Coordinates, Thrown> {
-    let coordinates = Coordinates::new(points)?;
-    coordinates.points::<D>()?.validate()?;
-    Ok(coordinates)
-}
-
-/// Returns a property, undefined where there is none.
-pub(crate) fn get(object: &JsValue, name: &str) -> JsValue {
-    Reflect::get(object, &name.into()).unwrap_or(JsValue::UNDEFINED)
 }
 
 /// Returns a property that is an array, or `None` if it is undefined.

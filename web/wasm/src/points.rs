@@ -24,7 +24,7 @@ impl Coordinates {
     }
 
     /// Negates the *y* coordinates of 2D points.
-    #[cfg(any(feature = "tools", feature = "derived", feature = "edit"))]
+    #[cfg(any(feature = "tools", feature = "derived", feature = "edit", feature = "transport"))]
     pub(crate) fn flip_y(&mut self) {
         match self {
             Coordinates::F32(values) => values.iter_mut().skip(1).step_by(2).for_each(|y| *y = -*y),
@@ -109,8 +109,16 @@ pub(crate) fn room<T>(length: usize) -> Result<Vec<T>, Thrown> {
     Ok(values)
 }
 
+/// Copies the points of a mesh, and checks them.
+#[cfg(any(feature = "tools", feature = "derived", feature = "transport"))]
+pub(crate) fn points_of_mesh<const D: usize>(points: &JsValue) -> Result<Coordinates, Thrown> {
+    let coordinates = Coordinates::new(points)?;
+    coordinates.points::<D>()?.validate()?;
+    Ok(coordinates)
+}
+
 /// Returns an array of zeros, or an error if memory does not suffice.
-#[cfg(any(feature = "tools", feature = "derived", feature = "edit"))]
+#[cfg(any(feature = "tools", feature = "derived", feature = "edit", feature = "transport"))]
 pub(crate) fn zeros<T: Clone + Default>(length: u32) -> Result<Vec<T>, Thrown> {
     let mut values = room(length as usize)?;
     values.resize(length as usize, T::default());

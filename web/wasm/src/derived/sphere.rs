@@ -2,9 +2,8 @@
 
 use super::{Task, numbers_of, offsets, queries_of};
 use crate::{
-    mesh::points_of_mesh,
     objects::{Thrown, object, signed},
-    points::{Coordinates, zeros},
+    points::{Coordinates, points_of_mesh, zeros},
 };
 use gdel::{Error, Points, Sphere, lon_lat, on_sphere};
 use js_sys::{Float64Array, Function, Int32Array, Uint8Array, Uint32Array};

@@ -9,8 +9,9 @@ use js_sys::{Float64Array, Uint8Array};
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
 use crate::{
-    mesh::{CallerMesh, points_of_mesh, property},
+    mesh::{CallerMesh, property},
     objects::{Thrown, error},
+    points::points_of_mesh,
     tools::{files, generated, report_object},
 };
 

@@ -9,8 +9,9 @@ use js_sys::Float64Array;
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
 use crate::{
-    mesh::{CallerMesh, points_of_mesh},
+    mesh::CallerMesh,
     objects::Thrown,
+    points::points_of_mesh,
     tools::{files, generated, report_object},
 };
 

@@ -1,9 +1,9 @@
 //! Weights with which cells have given volumes.
 
-use super::{clip_of, corners_of};
 use crate::{
-    mesh::{get, points_of_mesh},
-    objects::{Thrown, object},
+    clips::{clip_of, corners_of},
+    objects::{Thrown, get, object},
+    points::points_of_mesh,
     run::reporting,
 };
 use gdel::{
