@@ -1,6 +1,6 @@
 // What meshes of both dimensions have in common: they change with their points, and answer questions.
 
-import { moduleEdit } from '#assets';
+import { codeEdit, moduleEdit } from '#assets';
 import type {
   AlphaOptions,
   AlphaShape,
@@ -30,14 +30,16 @@ import {
   topology,
   transport,
 } from './derived.js';
+import { thrown } from './errors.js';
 import { Triangles } from './files.js';
 import { bad, optionsOf, taskOptions } from './options.js';
 import type { Done, Edit, Task } from './protocol.js';
 import type { Update } from './run.js';
+import { loadCode } from './runtime.js';
 import { runShared } from './shared.js';
 import type { AccessorOptions, Points, Stats, TaskOptions, UpdateOptions } from './types.js';
 import { Updating } from './updating.js';
-import { checkDelaunay, weightsOf } from './weights.js';
+import { checkDelaunay } from './weights.js';
 
 /** A mesh in typed arrays, of either dimension. */
 export abstract class Mesh extends Triangles {
@@ -117,8 +119,10 @@ export abstract class Mesh extends Triangles {
   async updateWeights(weights: ArrayLike<number>, options?: TaskOptions): Promise<void> {
     await this.#updating.run(async () => {
       const source = this._source();
-      const { dimension, points, mesh, factors } = source;
-      const given = weightsOf({ weights: weights ?? [] }, mesh.duplicateOf.length)!;
+      const { dimension, points, factors } = source;
+      const { extrasOf } = await loadCode(codeEdit);
+      const extras = thrown(() => extrasOf({ weights: weights ?? [] }, points, dimension));
+      const given = extras.weights!;
       if (factors) throw bad('the weights', 'left out, since the points were rescaled', weights);
       checkAllUsed(source);
       const outputs = ['neighbors', 'hull', 'duplicateOf'] as const;
