@@ -240,6 +240,7 @@ test('what needs a Delaunay triangulation says so', async () => {
   await rejects(mesh.update(POINTS), 'BAD_INPUT', needs);
   await rejects(mesh.insert([1, 1]), 'BAD_INPUT', needs);
   await rejects(mesh.remove([0]), 'BAD_INPUT', needs);
+  await rejects(mesh.updateWeights(Array(mesh.duplicateOf.length).fill(0)), 'BAD_INPUT', needs);
   assert.throws(() => mesh.find(0, 0), needs);
   assert.equal(canonical(mesh.triangles, 3), before);
   assert.equal((await mesh.topology()).edges.length, 2 * 20);

@@ -39,7 +39,7 @@ import { loadCode } from './runtime.js';
 import { runShared } from './shared.js';
 import type { AccessorOptions, Points, Stats, TaskOptions, UpdateOptions } from './types.js';
 import { Updating } from './updating.js';
-import { checkDelaunay } from './weights.js';
+import { checkDelaunay, checkUnconstrained } from './weights.js';
 
 /** A mesh in typed arrays, of either dimension. */
 export abstract class Mesh extends Triangles {
@@ -113,13 +113,14 @@ export abstract class Mesh extends Triangles {
    * takes as long as a run from scratch. Points that the old weights hid come back. When the promise is
    * fulfilled, the arrays of the mesh are new; until then, and if it is rejected, the mesh is what it was.
    *
-   * @throws {@link GdelError} `BAD_INPUT` for another number of weights, if one is not finite, if points were
-   * removed from the mesh or rescaled, or if the mesh is being changed; `ABORTED`.
+   * @throws {@link GdelError} `BAD_INPUT` for another number of weights, if one is not finite, if the mesh has
+   * constraints, if points were removed from it or rescaled, or if it is being changed; `ABORTED`.
    */
   async updateWeights(weights: ArrayLike<number>, options?: TaskOptions): Promise<void> {
     await this.#updating.run(async () => {
       const source = this._source();
-      const { dimension, points, factors } = source;
+      const { dimension, points, mesh, factors } = source;
+      checkUnconstrained(mesh);
       const { extrasOf } = await loadCode(codeEdit);
       const extras = thrown(() => extrasOf({ weights: weights ?? [] }, points, dimension));
       const given = extras.weights!;

@@ -33,6 +33,16 @@ export function weightsOf(
   return areRadii ? values.map((r) => r * r) : values;
 }
 
+/** Checks that a mesh has no constraints. */
+export function checkUnconstrained({
+  constraints,
+}: {
+  constraints?: object | null | undefined;
+}): void {
+  if (constraints)
+    throw new GdelError('BAD_INPUT', 'this is not possible with a mesh that has constraints');
+}
+
 /** Checks that a mesh is a Delaunay triangulation, as its changes need. */
 export function checkDelaunay(mesh: {
   weights: Doubles | null;
@@ -40,6 +50,5 @@ export function checkDelaunay(mesh: {
 }): void {
   if (mesh.weights)
     throw new GdelError('BAD_INPUT', 'this is not possible with a mesh of weighted points');
-  if (mesh.constraints)
-    throw new GdelError('BAD_INPUT', 'this is not possible with a mesh that has constraints');
+  checkUnconstrained(mesh);
 }
