@@ -14,10 +14,7 @@ use crate::{
 
 /// A mesh copied into this module's memory: `N` vertices per simplex, `H` per hull facet in `hull`.
 /// `None` stands for what the caller did not state.
-#[cfg_attr(
-    not(any(feature = "edit", feature = "tools")),
-    expect(dead_code, reason = "the hull, the dimension and hidden points are for files, proofs and edits")
-)]
+#[cfg_attr(not(feature = "tools"), expect(dead_code, reason = "hidden points are for proofs"))]
 pub(crate) struct CallerMesh<const N: usize, const H: usize> {
     pub(crate) simplices: Vec<[u32; N]>,
     pub(crate) neighbors: Option<Vec<[u32; N]>>,
