@@ -1,5 +1,10 @@
 //! Disjoint sets of numbers.
 
+use crate::parallel::{self, Threads};
+
+/// The number of numbers that is worth handing to another thread.
+const GRAIN: usize = 1 << 14;
+
 /// Disjoint sets of the numbers below a count.
 #[derive(Debug)]
 pub struct DisjointSets {
@@ -11,6 +16,35 @@ impl DisjointSets {
     /// Creates one set for each number.
     pub fn new(count: usize) -> Self {
         DisjointSets { parent: (0..count as u32).collect() }
+    }
+
+    /// Creates the sets of numbers that are united with lower ones: `lower` returns those of a number. Numbers that
+    /// are near each other should be united as a rule.
+    pub fn of_lower<L: Iterator<Item = u32>>(threads: Threads, count: usize, lower: impl Fn(u32) -> L + Sync) -> Self {
+        let mut sets = DisjointSets::new(count);
+        let mut chunks: Vec<&mut [u32]> = sets.parent.chunks_mut(GRAIN).collect();
+        // Each range by itself first; and what leads to others.
+        let leading = parallel::map_mut(threads, &mut chunks, |i, chunk| {
+            let start = (i * GRAIN) as u32;
+            let mut within = DisjointSets { parent: (0..chunk.len() as u32).collect() };
+            let mut leading = Vec::new();
+            for i in 0..chunk.len() as u32 {
+                for j in lower(start + i) {
+                    match j.checked_sub(start) {
+                        Some(j) => _ = within.unite(i, j),
+                        None => leading.push([start + i, j]),
+                    }
+                }
+            }
+            for (i, parent) in (0..).zip(chunk.iter_mut()) {
+                *parent = start + within.find(i);
+            }
+            leading
+        });
+        for [i, j] in leading.into_iter().flatten() {
+            sets.unite(i, j);
+        }
+        sets
     }
 
     /// Returns the number that stands for the set of `i`: the lowest.

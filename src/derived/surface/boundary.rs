@@ -104,16 +104,17 @@ impl<const D: usize> Boundary<D> {
         }
         let corners = self.facets.as_flattened();
         // Each edge in one of its two directions, with the corner opposite it.
-        let edges = (0..corners.len() as u32).filter_map(|h| {
-            let [from, to] = [next(h, D), next(next(h, D), D)].map(|end| corners[end as usize]);
-            (from < to).then_some((from, (to, h)))
+        let edges = parallel::map_ranges(Threads::All, corners.len(), |range| {
+            let edge = |h: u32| {
+                let [from, to] = [next(h, D), next(next(h, D), D)].map(|end| corners[end as usize]);
+                (from < to).then_some(([from, to], h))
+            };
+            range.filter_map(|h| edge(h as u32)).collect()
         });
-        let mut around = Groups::new(self.sources.len() + self.middles.len(), edges);
-        let mut doubled = Vec::new();
-        around.for_each_sorted(|edges| {
-            let pairs = edges.windows(2).filter(|pair| pair[0].0 == pair[1].0);
-            doubled.extend(pairs.map(|pair| pair[1].1));
-        });
+        let mut edges: Vec<([u32; 2], u32)> = parallel::joined(edges);
+        parallel::sort(Threads::All, &mut edges);
+        let pairs = edges.windows(2).filter(|pair| pair[0].0 == pair[1].0);
+        let doubled: Vec<u32> = pairs.map(|pair| pair[1].1).collect();
         let mut is_changed = vec![false; if doubled.is_empty() { 0 } else { self.facets.len() }];
         for &h in &doubled {
             let facets = [h, self.mates.as_flattened()[h as usize]].map(|h| h as usize / D);
@@ -161,14 +162,11 @@ impl<const D: usize> Boundary<D> {
 
     /// Returns the number of surfaces that hang together.
     pub(super) fn components(&self) -> usize {
-        let mut sets = DisjointSets::new(self.facets.len());
-        let mut count = self.facets.len();
-        for (f, mates) in (0..).zip(&self.mates) {
-            for mate in mates.iter().filter(|&&mate| mate != NONE) {
-                count -= usize::from(sets.unite(f, mate / D as u32));
-            }
-        }
-        count
+        let mut sets = DisjointSets::of_lower(Threads::All, self.facets.len(), |f| {
+            let mates = self.mates[f as usize].into_iter().filter(|&mate| mate != NONE);
+            mates.map(|mate| mate / D as u32).filter(move |&mate| mate < f)
+        });
+        (0..self.facets.len() as u32).filter(|&f| sets.find(f) == f).count()
     }
 
     /// Numbers the vertices, one for each cycle of facets around a point.
@@ -212,9 +210,13 @@ pub(super) fn area<const D: usize, const N: usize>(facets: &[[u32; D]], vertices
 where
     Euclidean: Geometry<D, N>,
 {
-    let normals =
-        facets.iter().map(|facet| Euclidean::facet_normal(&facet.map(|v| vector::times(scale, vertices[v as usize]))));
-    normals.map(vector::norm).fold(0.0, |sum, length| sum + length) / factorial(D - 1)
+    let area_of = |facet: &[u32; D]| {
+        vector::norm(Euclidean::facet_normal(&facet.map(|v| vector::times(scale, vertices[v as usize]))))
+    };
+    let areas = parallel::map_ranges(Threads::All, facets.len(), |range| {
+        facets[range].iter().map(area_of).collect::<Vec<f64>>()
+    });
+    areas.into_iter().flatten().fold(0.0, |sum, area| sum + area) / factorial(D - 1)
 }
 
 /// Returns the next corner of the same facet.

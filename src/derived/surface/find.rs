@@ -20,6 +20,7 @@ use crate::{
     geometry::{Euclidean, Geometry, facet, vector},
     index::NONE,
     mesh::Csr,
+    parallel::{self, Threads},
 };
 
 /// A sorted mesh whose coordinates are neither large nor small.
@@ -88,11 +89,13 @@ where
         }
         // The power of the scale may underflow.
         let unscaled = |measure: f64, power: usize| (0..power).fold(measure, |measure, _| measure / self.scale);
-        let inside = || (0..is_inside.len()).filter(|&t| is_inside[t]);
+        let solid = parallel::map_ranges(Threads::All, is_inside.len(), |range| {
+            range.filter(|&t| is_inside[t]).map(|t| self.mesh.given(complex.simplices[t])).collect()
+        });
         Surface {
-            solid: inside().map(|t| self.mesh.given(complex.simplices[t])).collect(),
+            solid: parallel::joined(solid),
             sides,
-            volume: unscaled(solid::volume(complex, inside()) + gain, D),
+            volume: unscaled(solid::volume(complex, &is_inside) + gain, D),
             area: unscaled(boundary::area(&boundary.facets, &vertices, self.scale), D - 1),
             topology,
             vertices,

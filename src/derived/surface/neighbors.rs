@@ -2,11 +2,17 @@
 //!
 //! [`Locator`](crate::Locator) finds them on a mesh. Points that were moved have none.
 
-use crate::geometry::vector;
+use crate::{
+    geometry::vector,
+    parallel::{self, Threads},
+};
 use std::collections::BinaryHeap;
 
 /// Ranges of so few points are searched one by one.
 const LEAF: usize = 12;
+
+/// The number of parts of a tree that threads share.
+const PARTS: usize = 64;
 
 /// A k-d tree over points.
 #[derive(Debug)]
@@ -21,24 +27,12 @@ pub(super) struct Tree<'a, const D: usize> {
 impl<'a, const D: usize> Tree<'a, D> {
     pub(super) fn new(points: &'a [[f64; D]]) -> Self {
         let mut tree = Tree { points, order: (0..points.len() as u32).collect(), axes: vec![0; points.len()] };
-        let mut ranges = vec![(0, points.len())];
-        while let Some((start, end)) = ranges.pop() {
-            if end - start <= LEAF {
-                continue;
-            }
-            let range = &mut tree.order[start..end];
-            let extent = |axis: usize| {
-                let bounds = range.iter().map(|&i| points[i as usize][axis]);
-                let [low, high] = bounds.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], x| [l.min(x), h.max(x)]);
-                high - low
-            };
-            let axis = (1..D).fold(0, |widest, axis| if extent(axis) > extent(widest) { axis } else { widest });
-            let middle = range.len() / 2;
-            range
-                .select_nth_unstable_by(middle, |&i, &j| points[i as usize][axis].total_cmp(&points[j as usize][axis]));
-            tree.axes[start + middle] = axis as u8;
-            ranges.extend([(start, start + middle), (start + middle + 1, end)]);
+        let mut parts = vec![Part { order: &mut tree.order, axes: &mut tree.axes }];
+        while parts.len() < PARTS && parts.iter().any(|part| part.order.len() > LEAF) {
+            parallel::map_mut(Threads::All, &mut parts, |_, part| part.split(points));
+            parts = parts.into_iter().flat_map(Part::halves).collect();
         }
+        parallel::map_mut(Threads::All, &mut parts, |_, part| part.split_all(points));
         tree
     }
 
@@ -81,6 +75,55 @@ impl<'a, const D: usize> Tree<'a, D> {
         let worst = nearest.peek().map_or(0, |&(bits, _)| bits);
         if nearest.len() < count || (beyond * beyond).to_bits() <= worst {
             self.search(far, query, count, nearest);
+        }
+    }
+}
+
+/// A range of a tree.
+struct Part<'a> {
+    order: &'a mut [u32],
+    axes: &'a mut [u8],
+}
+
+impl<'a> Part<'a> {
+    /// Puts the point in the middle of the range, along the axis of its greatest extent, into its place; the points
+    /// before are lower there, and those after higher.
+    fn split<const D: usize>(&mut self, points: &[[f64; D]]) {
+        if self.order.len() <= LEAF {
+            return;
+        }
+        let extent = |axis: usize| {
+            let bounds = self.order.iter().map(|&i| points[i as usize][axis]);
+            let [low, high] = bounds.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], x| [l.min(x), h.max(x)]);
+            high - low
+        };
+        let axis = (1..D).fold(0, |widest, axis| if extent(axis) > extent(widest) { axis } else { widest });
+        let middle = self.order.len() / 2;
+        self.order
+            .select_nth_unstable_by(middle, |&i, &j| points[i as usize][axis].total_cmp(&points[j as usize][axis]));
+        self.axes[middle] = axis as u8;
+    }
+
+    /// Returns the ranges before and after the point in the middle; one that is small as it is.
+    fn halves(self) -> impl Iterator<Item = Part<'a>> {
+        let Part { order, axes } = self;
+        let middle = if order.len() > LEAF { order.len() / 2 } else { order.len() };
+        let ((order, order_after), (axes, axes_after)) = (order.split_at_mut(middle), axes.split_at_mut(middle));
+        let after = match (order_after, axes_after) {
+            ([_, order @ ..], [_, axes @ ..]) => Some(Part { order, axes }),
+            _ => None,
+        };
+        std::iter::once(Part { order, axes }).chain(after)
+    }
+
+    /// Splits the range until its parts are small.
+    fn split_all<const D: usize>(&mut self, points: &[[f64; D]]) {
+        let mut parts = vec![Part { order: self.order, axes: self.axes }];
+        while let Some(mut part) = parts.pop() {
+            if part.order.len() > LEAF {
+                part.split(points);
+                parts.extend(part.halves());
+            }
         }
     }
 }

@@ -18,21 +18,21 @@ where
 {
     let count = is_inside.len();
     // The last number is that of the space outside the hull.
-    let mut sets = DisjointSets::new(count + 1);
-    for t in 0..count {
-        for k in 0..N {
-            match complex.across(t, k) {
-                Some(across) if across > t || is_inside[across] != is_inside[t] => {}
-                Some(across) => _ = sets.unite(t as u32, across as u32),
-                None if !is_inside[t] => _ = sets.unite(t as u32, count as u32),
-                None => {}
-            }
+    let sides: &[bool] = is_inside;
+    let mut sets = DisjointSets::of_lower(Threads::All, count + 1, |number| {
+        let t = number as usize;
+        let across = (0..N).filter(move |_| t < count).filter_map(move |k| complex.across(t, k));
+        across.filter(move |&across| across < t && sides[across] == sides[t]).map(|across| across as u32)
+    });
+    for t in (0..count).filter(|&t| !is_inside[t]) {
+        if (0..N).any(|k| complex.across(t, k).is_none()) {
+            sets.unite(t as u32, count as u32);
         }
     }
     let unbounded = sets.find(count as u32);
     let mut volumes = vec![0.0; count + 1];
-    for t in 0..count {
-        volumes[sets.find(t as u32) as usize] += measure(&complex.corners(t));
+    for (t, volume) in (0..).zip(measures(complex, |_| true)) {
+        volumes[sets.find(t) as usize] += volume;
     }
     let roots = || volumes.iter().enumerate().filter(|&(t, &volume)| volume > 0.0 && t != unbounded as usize);
     let largest = roots().filter(|&(t, _)| is_inside[t]).map(|(_, &volume)| volume).fold(0.0, f64::max);
@@ -49,15 +49,25 @@ where
     dropped
 }
 
-/// Returns the sum of the measures of simplices, whatever their order.
-pub(super) fn volume<const D: usize, const N: usize>(
+/// Returns the measures of some simplices, in their order.
+fn measures<const D: usize, const N: usize>(
     complex: &Complex<'_, D, N>,
-    simplices: impl Iterator<Item = usize>,
-) -> f64
+    is_meant: impl Fn(usize) -> bool + Sync,
+) -> Vec<f64>
 where
     Euclidean: Geometry<D, N>,
 {
-    let mut measures: Vec<f64> = simplices.map(|t| measure(&complex.corners(t))).collect();
+    parallel::joined(parallel::map_ranges(Threads::All, complex.simplices.len(), |range| {
+        range.filter(|&t| is_meant(t)).map(|t| measure(&complex.corners(t))).collect()
+    }))
+}
+
+/// Returns the sum of the measures of the simplices that are inside, whatever their order.
+pub(super) fn volume<const D: usize, const N: usize>(complex: &Complex<'_, D, N>, is_inside: &[bool]) -> f64
+where
+    Euclidean: Geometry<D, N>,
+{
+    let mut measures = measures(complex, |t| is_inside[t]);
     // Sums of numbers that are rounded depend on their order.
     parallel::sort_by(Threads::All, &mut measures, f64::total_cmp);
     measures.into_iter().fold(0.0, |sum, measure| sum + measure)
