@@ -24,7 +24,7 @@ done
 wasm=(--target wasm32-unknown-unknown)
 step cargo check --locked --package gdel --package gdel-io --lib --no-default-features "${wasm[@]}"
 step cargo clippy --locked --lib --package gdel --features gdel/gpu \
-  --package gdel-web --features gdel-web/d2,gdel-web/d3,gdel-web/edit,gdel-web/tools,gdel-web/derived,gdel-web/transport "${wasm[@]}" -- -D warnings
+  --package gdel-web --features gdel-web/d2,gdel-web/d3,gdel-web/edit,gdel-web/tools,gdel-web/derived,gdel-web/surface,gdel-web/transport "${wasm[@]}" -- -D warnings
 # The fuzz targets; what they are linked to needs a compiler of C++ and is not needed for a check.
 CUSTOM_LIBFUZZER_PATH=target/libfuzzer.a step cargo check --locked --manifest-path fuzz/Cargo.toml --target-dir "${CARGO_TARGET_DIR:-target}"
 # With the features of the dependencies that clippy has checked them with.

@@ -32,6 +32,7 @@ const MODULES = {
   edit: 'edit',
   tools: 'tools',
   derived: 'derived',
+  surface: 'surface',
   transport: 'transport',
 };
 

@@ -29,7 +29,7 @@ const EXPECTED = { thread: 'worker', whyThread: null, whyInlined: null, sync: nu
 
 test('where all files are, no copy is loaded', () => {
   const withoutCopies = (folder) => {
-    for (const name of ['3d', '2d', 'edit', 'tools', 'derived', 'transport'])
+    for (const name of ['3d', '2d', 'edit', 'tools', 'derived', 'surface', 'transport'])
       for (const copy of ['inline', 'inline-worker']) rmSync(join(folder, `${copy}-${name}.js`));
   };
   assert.deepEqual(run(withoutCopies), EXPECTED);
@@ -103,7 +103,7 @@ test('a worker that is missing is replaced by its copy, and the statistics say s
 
 test('gdel-wasm/inline needs no files', () => {
   const found = run((folder) => {
-    for (const module of ['3d', '2d', 'edit', 'tools', 'derived', 'transport']) {
+    for (const module of ['3d', '2d', 'edit', 'tools', 'derived', 'surface', 'transport']) {
       rmSync(join(folder, `gdel-${module}.wasm`));
       rmSync(join(folder, `worker-${module}.js`));
     }

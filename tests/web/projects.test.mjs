@@ -281,7 +281,7 @@ test('every file that the package names is in it', () => {
     'package.json',
   ]);
   const files = readdirSync(folder);
-  const ofModules = ['3d', '2d', 'edit', 'tools', 'derived', 'transport'].flatMap((module) => [
+  const ofModules = ['3d', '2d', 'edit', 'tools', 'derived', 'surface', 'transport'].flatMap((module) => [
     `gdel-${module}.wasm`,
     `core-${module}.js`,
     `core-${module}.cjs`,

@@ -60,3 +60,15 @@ export const moduleDerived: ModuleAsset = {
   worker: workerDerived,
   code: codeDerived,
 };
+
+const wasmSurface: WasmAsset = {
+  name: 'surface',
+  file: () => new URL('./gdel-surface.wasm', import.meta.url),
+};
+const codeSurface = () => import('./core-surface.js');
+const workerSurface: WorkerAsset = { file: () => new URL('./worker-surface.js', import.meta.url) };
+export const moduleSurface: ModuleAsset = {
+  wasm: wasmSurface,
+  worker: workerSurface,
+  code: codeSurface,
+};

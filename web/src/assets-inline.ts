@@ -42,3 +42,12 @@ export const moduleDerived: ModuleAsset = {
   worker: workerDerived,
   code: codeDerived,
 };
+
+const wasmSurface: WasmAsset = { name: 'surface', copy: () => import('base64:surface') };
+const codeSurface = () => import('./core-surface.js');
+const workerSurface: WorkerAsset = { copy: () => import('text:surface') };
+export const moduleSurface: ModuleAsset = {
+  wasm: wasmSurface,
+  worker: workerSurface,
+  code: codeSurface,
+};

@@ -117,3 +117,24 @@ export const moduleDerived: ModuleAsset = {
   worker: workerDerived,
   code: codeDerived,
 };
+
+const wasmSurface: WasmAsset = {
+  name: 'surface',
+  file: () => new URL('./gdel-surface.wasm', import.meta.url),
+  copy: () => import('base64:surface'),
+};
+const codeSurface = () => import('./core-surface.js');
+const workerSurface: WorkerAsset = {
+  start: () =>
+    new Worker(new URL('./worker-surface.js', import.meta.url), {
+      type: 'module',
+      name: 'gdel-surface',
+    }),
+  file: () => new URL('./worker-surface.js', here()),
+  copy: () => import('text:surface'),
+};
+export const moduleSurface: ModuleAsset = {
+  wasm: wasmSurface,
+  worker: workerSurface,
+  code: codeSurface,
+};

@@ -37,6 +37,11 @@ declare module 'glue:transport' {
   export default makeGlue;
 }
 
+declare module 'glue:surface' {
+  const makeGlue: MakeGlue<typeof import('../pkg/surface/gdel.js')>;
+  export default makeGlue;
+}
+
 declare module 'glue:derived' {
   const makeGlue: MakeGlue<typeof import('../pkg/derived/gdel.js')>;
   export default makeGlue;

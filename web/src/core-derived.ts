@@ -16,7 +16,6 @@ type DerivedTask =
   | 'contours'
   | 'voronoi'
   | 'alphaShape'
-  | 'surface'
   | 'spanningTree'
   | 'topology'
   | 'geometry'
@@ -50,8 +49,6 @@ export function openCore(module: WebAssembly.Module): Core {
       glue.voronoi(dimension, points, mesh, clip, bounds, report),
     alphaShape: ({ dimension, points, mesh, options }, report) =>
       glue.alphaShape(dimension, points, mesh, options, report),
-    surface: ({ dimension, points, mesh, options }, report) =>
-      glue.surface(dimension, points, mesh, options, report),
     spanningTree: ({ dimension, points, mesh }, report) =>
       glue.spanningTree(dimension, points, mesh, report),
     topology: ({ dimension, points, mesh }, report) =>

@@ -1,6 +1,6 @@
 // What is derived from a mesh, in a WebAssembly module of its own.
 
-import { moduleDerived, moduleTransport } from '#assets';
+import { moduleDerived, moduleSurface, moduleTransport } from '#assets';
 import type {
   AlphaOptions,
   AlphaShape,
@@ -48,10 +48,11 @@ async function run<T extends TaskName>(
   { dimension, points, mesh }: Source,
   args: Omit<Tasks[T]['args'], keyof Source>,
   options: TaskOptions,
+  module = moduleDerived,
 ): Promise<Tasks[T]['result']> {
   checkArrays({ points, ...mesh });
   const all = { dimension, points, mesh, ...args } as Tasks[T]['args'];
-  return runShared(moduleDerived, task, all, options);
+  return runShared(module, task, all, options);
 }
 
 /** Returns a copy of queries, scaled as the points are. */
@@ -317,7 +318,8 @@ export async function surface(source: Source, options: SurfaceOptions | undefine
   const { signal, onProgress, ...given } = optionsOf(options);
   for (const [name, value] of Object.entries(given))
     if (/function|symbol/.test(typeof value)) throw bad(`the option ${name}`, 'a value', value);
-  return run('surface', source, { options: given }, taskOptions({ signal, onProgress }));
+  const task = taskOptions({ signal, onProgress });
+  return run('surface', source, { options: given }, task, moduleSurface);
 }
 
 /** The Euclidean minimum spanning tree of the points of a mesh; duplicates have edges of length 0. */

@@ -42,7 +42,7 @@ import type {
 } from './types.js';
 
 /** The wasm modules. */
-export type ModuleName = 'd3' | 'd2' | 'edit' | 'tools' | 'derived' | 'transport';
+export type ModuleName = 'd3' | 'd2' | 'edit' | 'tools' | 'derived' | 'surface' | 'transport';
 
 export type CoreInfo = Omit<TriangulatorInfo, keyof Place>;
 

@@ -1,30 +1,25 @@
-//! What is derived from a mesh. 2D meshes have delaunator's orientation: they are made
-//! counter-clockwise by the negation of all *y*, which is undone in what is returned.
-
-use gdel::{
-    AlphaShape, Contours, Csr, Duplicates, Error, Grid, Interpolation, Interpolator, Location, Locator, Mesh, Mesh2,
-    Mesh3, Open, Outside, Points, Side, SpanningTree, Surface, SurfaceOptions, Voronoi,
-    internals::{
-        cpu::edit::Used,
-        derived::{SingularEdges, StolenMeasures, SurfaceMesh, VoronoiShapes, singular},
-        geometry::{Euclidean, Geometry},
-    },
-};
-use js_sys::{Array, Float64Array, Function, Int32Array, Uint8Array, Uint32Array};
-use std::cell::Cell;
-use wasm_bindgen::{
-    JsCast,
-    prelude::{JsValue, wasm_bindgen},
-};
+//! What is derived from a mesh.
 
 mod sphere;
 
 use crate::{
     clips::{clip_of, corners_of, numbers_of},
-    mesh::CallerMesh,
     objects::{Thrown, error, get, object, set, signed},
-    points::{Coordinates, points_of_mesh, room},
+    points::{Coordinates, room},
+    task::{OfCaller, Task, coordinates, in_dimension, option},
 };
+use gdel::{
+    AlphaShape, Contours, Csr, Duplicates, Error, Grid, Interpolation, Interpolator, Location, Locator, Mesh2, Mesh3,
+    Outside, Points, SpanningTree, Voronoi,
+    internals::{
+        cpu::edit::Used,
+        derived::{SingularEdges, StolenMeasures, VoronoiShapes, singular},
+        geometry::{Euclidean, Geometry},
+    },
+};
+use js_sys::{Array, Float64Array, Function, Int32Array, Uint8Array, Uint32Array};
+use std::cell::Cell;
+use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
 /// The largest number of reports while queries are answered.
 const PARTS: usize = 16;
@@ -32,24 +27,8 @@ const PARTS: usize = 16;
 /// far from each other.
 const MIN_PART: usize = 1 << 16;
 
-/// Calls a function for the meshes of 2 or 3 dimensions.
-macro_rules! in_dimension {
-    ($dimension:ident, $function:ident($($argument:ident),*)) => {
-        match $dimension {
-            2 => $function::<Mesh2, 2, 3>($($argument),*),
-            _ => $function::<Mesh3, 3, 4>($($argument),*),
-        }
-    };
-}
-
-/// A mesh of the package.
-trait OfCaller<const D: usize, const N: usize>: Mesh<D, N> + Sized {
-    /// The name of the array of simplices.
-    const SIMPLICES: &str;
-
-    /// Copies a mesh.
-    fn of_caller(mesh: &JsValue) -> Result<Self, Thrown>;
-
+/// A mesh of which all parts can be told.
+trait Described<const D: usize, const N: usize>: OfCaller<D, N> {
     /// Returns the edges.
     fn edges(&self) -> Vec<[u32; 2]>;
 
@@ -76,19 +55,7 @@ struct Shapes<const D: usize> {
     angles: Vec<f64>,
 }
 
-impl OfCaller<3, 4> for Mesh3 {
-    const SIMPLICES: &str = "tetrahedra";
-
-    fn of_caller(mesh: &JsValue) -> Result<Self, Thrown> {
-        let caller = CallerMesh::<4, 3>::new(mesh, Self::SIMPLICES, "neighbors")?;
-        let mut mesh = Mesh3::default();
-        mesh.tetrahedra = caller.simplices;
-        mesh.neighbors = caller.neighbors.unwrap_or_default();
-        mesh.duplicate_of = caller.duplicate_of.unwrap_or_default();
-        mesh.weights = caller.weights.unwrap_or_default();
-        Ok(mesh)
-    }
-
+impl Described<3, 4> for Mesh3 {
     fn edges(&self) -> Vec<[u32; 2]> {
         self.edges().collect()
     }
@@ -116,20 +83,7 @@ impl OfCaller<3, 4> for Mesh3 {
     }
 }
 
-impl OfCaller<2, 3> for Mesh2 {
-    const SIMPLICES: &str = "triangles";
-
-    fn of_caller(mesh: &JsValue) -> Result<Self, Thrown> {
-        let caller = CallerMesh::<3, 1>::new(mesh, Self::SIMPLICES, "halfedges")?;
-        let mut mesh = Mesh2::default();
-        mesh.triangles = caller.simplices;
-        mesh.halfedges = caller.neighbors.unwrap_or_default();
-        mesh.duplicate_of = caller.duplicate_of.unwrap_or_default();
-        mesh.weights = caller.weights.unwrap_or_default();
-        mesh.constraints = caller.constraints.edges;
-        Ok(mesh)
-    }
-
+impl Described<2, 3> for Mesh2 {
     fn edges(&self) -> Vec<[u32; 2]> {
         self.edges().collect()
     }
@@ -157,41 +111,7 @@ impl OfCaller<2, 3> for Mesh2 {
     }
 }
 
-/// A mesh with its points, and who is told how far the work has come.
-struct Task<M> {
-    points: Coordinates,
-    mesh: M,
-    report: Function,
-    phase: &'static str,
-}
-
 impl<M> Task<M> {
-    fn new<const D: usize, const N: usize>(
-        points: &JsValue,
-        mesh: &JsValue,
-        report: Function,
-        phase: &'static str,
-    ) -> Result<Self, Thrown>
-    where
-        M: OfCaller<D, N>,
-    {
-        let mut points = points_of_mesh::<D>(points)?;
-        if D == 2 {
-            points.flip_y();
-        }
-        let task = Task { points, mesh: M::of_caller(mesh)?, report, phase };
-        task.report(0.1)?;
-        Ok(task)
-    }
-
-    /// Reports the progress, and returns an error if the task is to end.
-    fn report(&self, fraction: f64) -> Result<(), Error> {
-        match self.report.call2(&JsValue::NULL, &self.phase.into(), &fraction.into()) {
-            Ok(stop) if stop.is_falsy() => Ok(()),
-            _ => Err(Error::Cancelled),
-        }
-    }
-
     /// Calls `answer` with one part of the queries after the other, to each of which it adds so many
     /// answers. There is room for all of them.
     fn in_parts<const D: usize, R>(
@@ -228,17 +148,6 @@ fn queries_of<const D: usize>(queries: &JsValue) -> Result<Coordinates, Thrown> 
         queries.flip_y();
     }
     Ok(queries)
-}
-
-/// Returns coordinates, interleaved.
-fn coordinates<const D: usize>(points: &[[f64; D]]) -> Float64Array {
-    if D != 2 {
-        return Float64Array::new_from_slice(points.as_flattened());
-    }
-    let mut points = points.to_vec();
-    // Not −0.
-    points.iter_mut().for_each(|p| p[1] = 0.0 - p[1]);
-    Float64Array::new_from_slice(points.as_flattened())
 }
 
 fn offsets(offsets: &[usize]) -> JsValue {
@@ -687,137 +596,6 @@ where
     ]))
 }
 
-/// Returns the closed surface through the points. What `options` do not have is as in
-/// [`SurfaceOptions::default`].
-#[wasm_bindgen]
-pub fn surface(
-    dimension: u32,
-    points: &JsValue,
-    mesh: &JsValue,
-    options: &JsValue,
-    report: Function,
-) -> Result<JsValue, Thrown> {
-    in_dimension!(dimension, surface_in(points, mesh, options, report))
-}
-
-fn surface_in<M: OfCaller<D, N>, const D: usize, const N: usize>(
-    points: &JsValue,
-    mesh: &JsValue,
-    options: &JsValue,
-    report: Function,
-) -> Result<JsValue, Thrown>
-where
-    Euclidean: SurfaceMesh<D, N>,
-{
-    let task = Task::<M>::new::<D, N>(points, mesh, report, "surface")?;
-    let mut is_solid_wanted = false;
-    option(options, "solid", "true or false", JsValue::as_bool, &mut is_solid_wanted)?;
-    let [normals, sensors] = [vectors::<D>(options, "normals")?, vectors::<D>(options, "sensors")?];
-    let given = surface_options(options, [&normals, &sensors])?;
-    let surface = Surface::new(&task.mesh, task.points.points::<D>()?, &given)?;
-    task.report(0.9)?;
-    let sides: Vec<u8> = surface.sides().iter().map(|&side| code_of(side)).collect();
-    let [pieces, cavities] = surface.dropped();
-    let facets = if D == 2 { "edges" } else { "triangles" };
-    let solid = match is_solid_wanted {
-        true => Uint32Array::new_from_slice(surface.solid().as_flattened()).into(),
-        false => JsValue::NULL,
-    };
-    Ok(object([
-        (facets, Uint32Array::new_from_slice(surface.facets().as_flattened()).into()),
-        ("vertices", task.points.in_same_precision(coordinates(surface.vertices()))),
-        ("sources", signed(surface.sources()).into()),
-        ("sides", Uint8Array::new_from_slice(&sides).into()),
-        ("volume", surface.volume().into()),
-        ("area", surface.area().into()),
-        ("components", surface.components().into()),
-        ("genus", surface.genus().into()),
-        ("closed", surface.is_closed().into()),
-        ("boundaries", surface.boundaries().into()),
-        ("evidence", surface.evidence().name().into()),
-        ("noise", surface.noise().into()),
-        ("isolated", surface.isolated().into()),
-        ("droppedPieces", pieces.into()),
-        ("filledCavities", cavities.into()),
-        ("moved", surface.moved_points().map_or(JsValue::NULL, |points| coordinates(points).into())),
-        ("solid", solid),
-    ]))
-}
-
-/// Normals or positions of sensors among the options.
-fn vectors<const D: usize>(options: &JsValue, name: &str) -> Result<Option<Coordinates>, Thrown> {
-    let mut vectors = None;
-    let convert = |value: &JsValue| Some(Some(Coordinates::new(value).ok().filter(|all| all.points::<D>().is_ok())?));
-    let must_be = format!("a Float32Array or a Float64Array of {D} numbers per vector");
-    option(options, name, &must_be, convert, &mut vectors)?;
-    if D == 2 {
-        vectors.iter_mut().for_each(Coordinates::flip_y);
-    }
-    Ok(vectors)
-}
-
-/// Converts the options; [`vectors`] are those among them.
-fn surface_options<'a, const D: usize>(
-    options: &JsValue,
-    [normals, sensors]: [&'a Option<Coordinates>; 2],
-) -> Result<SurfaceOptions<'a, D>, Thrown> {
-    let mut found = SurfaceOptions::default();
-    let share = |value: &JsValue| value.as_f64().filter(|share| (0.0..=1.0).contains(share));
-    // `auto` is `None`.
-    let times = |value: &JsValue| match value.as_f64() {
-        Some(times) if (0.0..=100.0).contains(&times) && times.fract() == 0.0 => Some(Some(times as u32)),
-        None if *value == "auto" => Some(None),
-        _ => None,
-    };
-    let direction = |value: &JsValue| {
-        let numbers: Option<Vec<f64>> = value.dyn_ref::<Array>()?.iter().map(|x| x.as_f64()).collect();
-        let mut direction: [f64; D] = numbers?.try_into().ok()?;
-        if D == 2 {
-            direction[1] = -direction[1];
-        }
-        Some(Some(direction))
-    };
-    let open = |value: &JsValue| match value.as_string()?.as_str() {
-        "never" => Some(Open::Never),
-        "auto" => Some(Open::Auto),
-        _ => None,
-    };
-    option(options, "minPart", "a number from 0 to 1", share, &mut found.min_part)?;
-    option(options, "dropIsolated", "true or false", JsValue::as_bool, &mut found.drop_isolated)?;
-    option(options, "smooth", "'auto' or an integer from 0 to 100", times, &mut found.smooth)?;
-    option(options, "refine", "true or false", JsValue::as_bool, &mut found.refine)?;
-    option(options, "up", &format!("an array of {D} numbers"), direction, &mut found.up)?;
-    option(options, "open", "'never' or 'auto'", open, &mut found.open)?;
-    found.normals = normals.as_ref().map(Coordinates::points).transpose()?;
-    found.sensors = sensors.as_ref().map(Coordinates::points).transpose()?;
-    Ok(found)
-}
-
-/// Takes over an option, unless it is not given.
-fn option<T>(
-    options: &JsValue,
-    name: &str,
-    must_be: &str,
-    convert: impl FnOnce(&JsValue) -> Option<T>,
-    to: &mut T,
-) -> Result<(), Thrown> {
-    let value = get(options, name);
-    if !value.is_undefined() {
-        let converted = convert(&value);
-        *to = converted.ok_or_else(|| error("BAD_INPUT", &format!("the option {name} must be {must_be}")))?;
-    }
-    Ok(())
-}
-
-/// Returns the number that says where a point lies.
-fn code_of(side: Side) -> u8 {
-    match side {
-        Side::Outside => 0,
-        Side::On => 1,
-        Side::Inside => 2,
-    }
-}
-
 /// Returns the minimum spanning tree.
 #[wasm_bindgen(js_name = spanningTree)]
 pub fn spanning_tree(dimension: u32, points: &JsValue, mesh: &JsValue, report: Function) -> Result<JsValue, Thrown> {
@@ -847,7 +625,7 @@ pub fn topology(dimension: u32, points: &JsValue, mesh: &JsValue, report: Functi
     in_dimension!(dimension, topology_in(points, mesh, report))
 }
 
-fn topology_in<M: OfCaller<D, N>, const D: usize, const N: usize>(
+fn topology_in<M: Described<D, N>, const D: usize, const N: usize>(
     points: &JsValue,
     mesh: &JsValue,
     report: Function,
@@ -858,9 +636,9 @@ where
     let task = Task::<M>::new::<D, N>(points, mesh, report, "topology")?;
     // Only to check the mesh.
     Locator::new(&task.mesh, task.points.points::<D>()?)?;
-    let edges = OfCaller::edges(&task.mesh);
+    let edges = Described::edges(&task.mesh);
     task.report(0.4)?;
-    let facets = OfCaller::facets(&task.mesh);
+    let facets = Described::facets(&task.mesh);
     task.report(0.6)?;
     let neighbors = OfCaller::vertex_neighbors(&task.mesh);
     task.report(0.9)?;
@@ -879,7 +657,7 @@ pub fn geometry(dimension: u32, points: &JsValue, mesh: &JsValue, report: Functi
     in_dimension!(dimension, geometry_in(points, mesh, report))
 }
 
-fn geometry_in<M: OfCaller<D, N>, const D: usize, const N: usize>(
+fn geometry_in<M: Described<D, N>, const D: usize, const N: usize>(
     points: &JsValue,
     mesh: &JsValue,
     report: Function,

@@ -1,7 +1,7 @@
 //! The WebAssembly bindings of the npm package: typed arrays in, typed arrays out, errors as
 //! `Error` objects with a `code`. The TypeScript in `web/src` is their only caller.
 //!
-//! The features `d3`, `d2`, `edit`, `tools`, `derived` and `transport` are the modules of the package.
+//! The features `d3`, `d2`, `edit`, `tools`, `derived`, `surface` and `transport` are the modules of the package.
 #![cfg(target_arch = "wasm32")]
 
 #[cfg(any(feature = "d2", feature = "d3", feature = "edit"))]
@@ -18,7 +18,7 @@ mod derived;
 mod edit;
 #[cfg(any(feature = "d2", feature = "d3"))]
 mod host;
-#[cfg(any(feature = "tools", feature = "derived", feature = "edit"))]
+#[cfg(any(feature = "tools", feature = "derived", feature = "surface", feature = "edit"))]
 mod mesh;
 mod objects;
 mod points;
@@ -26,6 +26,10 @@ mod points;
 mod resident;
 #[cfg(any(feature = "d2", feature = "d3", feature = "edit", feature = "transport"))]
 mod run;
+#[cfg(feature = "surface")]
+mod surface;
+#[cfg(any(feature = "derived", feature = "surface"))]
+mod task;
 #[cfg(feature = "tools")]
 mod tools;
 #[cfg(feature = "transport")]

@@ -20,13 +20,13 @@ pub(crate) fn object<const N: usize>(entries: [(&str, JsValue); N]) -> JsValue {
 }
 
 /// Returns a property, undefined where there is none.
-#[cfg(any(feature = "tools", feature = "derived", feature = "edit", feature = "transport"))]
+#[cfg(any(feature = "tools", feature = "derived", feature = "surface", feature = "edit", feature = "transport"))]
 pub(crate) fn get(object: &JsValue, name: &str) -> JsValue {
     Reflect::get(object, &name.into()).unwrap_or(JsValue::UNDEFINED)
 }
 
 /// Copies indices into a signed array, where [`NONE`](gdel::NONE) is −1.
-#[cfg(any(feature = "d2", feature = "d3", feature = "edit", feature = "derived"))]
+#[cfg(any(feature = "d2", feature = "d3", feature = "edit", feature = "derived", feature = "surface"))]
 pub(crate) fn signed(indices: &[u32]) -> js_sys::Int32Array {
     js_sys::Int32Array::new_from_slice(bytemuck::cast_slice(indices))
 }

@@ -24,7 +24,7 @@ impl Coordinates {
     }
 
     /// Negates the *y* coordinates of 2D points.
-    #[cfg(any(feature = "tools", feature = "derived", feature = "edit", feature = "transport"))]
+    #[cfg(any(feature = "tools", feature = "derived", feature = "surface", feature = "edit", feature = "transport"))]
     pub(crate) fn flip_y(&mut self) {
         match self {
             Coordinates::F32(values) => values.iter_mut().skip(1).step_by(2).for_each(|y| *y = -*y),
@@ -33,7 +33,7 @@ impl Coordinates {
     }
 
     /// Converts an array to the precision of these coordinates.
-    #[cfg(feature = "derived")]
+    #[cfg(any(feature = "derived", feature = "surface"))]
     pub(crate) fn in_same_precision(&self, array: Float64Array) -> JsValue {
         match self {
             Coordinates::F32(_) => Float32Array::new(&array).into(),
@@ -42,7 +42,7 @@ impl Coordinates {
     }
 
     /// Returns some of the coordinates as points, counted in points.
-    #[cfg(feature = "derived")]
+    #[cfg(any(feature = "derived", feature = "surface"))]
     pub(crate) fn part<const D: usize>(&self, range: std::ops::Range<usize>) -> Result<Points<'_, D>, Error> {
         let range = D * range.start..D * range.end;
         match self {
@@ -110,7 +110,7 @@ pub(crate) fn room<T>(length: usize) -> Result<Vec<T>, Thrown> {
 }
 
 /// Copies the points of a mesh, and checks them.
-#[cfg(any(feature = "tools", feature = "derived", feature = "transport"))]
+#[cfg(any(feature = "tools", feature = "derived", feature = "surface", feature = "transport"))]
 pub(crate) fn points_of_mesh<const D: usize>(points: &JsValue) -> Result<Coordinates, Thrown> {
     let coordinates = Coordinates::new(points)?;
     coordinates.points::<D>()?.validate()?;
@@ -118,7 +118,7 @@ pub(crate) fn points_of_mesh<const D: usize>(points: &JsValue) -> Result<Coordin
 }
 
 /// Returns an array of zeros, or an error if memory does not suffice.
-#[cfg(any(feature = "tools", feature = "derived", feature = "edit", feature = "transport"))]
+#[cfg(any(feature = "tools", feature = "derived", feature = "surface", feature = "edit", feature = "transport"))]
 pub(crate) fn zeros<T: Clone + Default>(length: u32) -> Result<Vec<T>, Thrown> {
     let mut values = room(length as usize)?;
     values.resize(length as usize, T::default());
