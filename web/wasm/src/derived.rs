@@ -17,7 +17,7 @@ use gdel::{
         geometry::{Euclidean, Geometry},
     },
 };
-use js_sys::{Array, Float64Array, Function, Int32Array, Uint8Array, Uint32Array};
+use js_sys::{Array, Float64Array, Function, Int32Array, Uint32Array};
 use std::cell::Cell;
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
@@ -640,7 +640,7 @@ where
     task.report(0.4)?;
     let facets = Described::facets(&task.mesh);
     task.report(0.6)?;
-    let neighbors = OfCaller::vertex_neighbors(&task.mesh);
+    let neighbors = Described::vertex_neighbors(&task.mesh);
     task.report(0.9)?;
     Ok(object([
         ("edges", Uint32Array::new_from_slice(edges.as_flattened()).into()),

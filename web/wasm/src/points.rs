@@ -33,7 +33,7 @@ impl Coordinates {
     }
 
     /// Converts an array to the precision of these coordinates.
-    #[cfg(any(feature = "derived", feature = "surface"))]
+    #[cfg(feature = "surface")]
     pub(crate) fn in_same_precision(&self, array: Float64Array) -> JsValue {
         match self {
             Coordinates::F32(_) => Float32Array::new(&array).into(),
@@ -42,7 +42,7 @@ impl Coordinates {
     }
 
     /// Returns some of the coordinates as points, counted in points.
-    #[cfg(any(feature = "derived", feature = "surface"))]
+    #[cfg(feature = "derived")]
     pub(crate) fn part<const D: usize>(&self, range: std::ops::Range<usize>) -> Result<Points<'_, D>, Error> {
         let range = D * range.start..D * range.end;
         match self {
