@@ -74,7 +74,7 @@ pub mod d3 {
 pub mod derived {
     pub use crate::derived::{
         AlphaEdges, DisjointSets, SingularEdges, StolenMeasures, SurfaceMesh, VoronoiShapes, crossing_facets, singular,
-        transport,
+        sites_by_halves, transport,
     };
 }
 pub mod dimension {

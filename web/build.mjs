@@ -36,6 +36,17 @@ const MODULES = {
   transport: 'transport',
 };
 
+/** The entries beside the main one, most of which have the interfaces of other packages. */
+const INTERFACES = [
+  'cdt2d',
+  'constrainautor',
+  'd3-voronoi-map',
+  'd3-voronoi-treemap',
+  'd3-weighted-voronoi',
+  'earcut',
+  'treemap',
+];
+
 const say = (text) => console.log(`build: ${text}`);
 // wasm-bindgen is there; wasm-opt is that of the npm package binaryen, since Debian's is too old
 // for what rustc emits.
@@ -181,7 +192,7 @@ const taskCode = (extension) => ({
   },
 });
 
-/** Builds the interface of another package, which imports the main entry. */
+/** Builds an entry that imports the main one. */
 async function buildInterface(name) {
   for (const [extension, format] of Object.entries({ js: 'esm', cjs: 'cjs' })) {
     const path = `./index.${extension}`;
@@ -235,7 +246,7 @@ async function buildJs() {
   const names = 'Delaunator, Delaunator as default, GdelError';
   writeFileSync(join(dist, 'delaunator.js'), `export { ${names} } from './index.js';\n`);
   writeFileSync(join(dist, 'delaunator.cjs'), DELAUNATOR_CJS);
-  for (const name of ['cdt2d', 'constrainautor', 'earcut']) await buildInterface(name);
+  for (const name of INTERFACES) await buildInterface(name);
   say('declarations: tsc');
   run(process.execPath, [join(root, 'node_modules/typescript/bin/tsc'), '--project', web]);
   // The builds have one interface.

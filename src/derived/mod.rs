@@ -37,6 +37,6 @@ pub use locate::{Location, Locator, Locator2};
 pub use sets::DisjointSets;
 pub use sphere::{Sphere, lon_lat, on_sphere};
 pub use surface::{Evidence, Open, Side, Surface, SurfaceMesh, SurfaceOptions, crossing_facets};
-pub use transport::{Transport, TransportOptions, transport};
+pub use transport::{Transport, TransportOptions, sites_by_halves, transport};
 pub use tree::SpanningTree;
 pub use voronoi::{Cell, Clip, Diagram, Voronoi, Voronoi2, VoronoiShapes};

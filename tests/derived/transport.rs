@@ -7,7 +7,10 @@ use crate::{
 };
 use gdel::{
     Backend, Clip, Error, Mesh2, Mesh3, NONE, Points, Transport, TransportOptions, Triangulator, Voronoi,
-    internals::{derived::VoronoiShapes, geometry::Euclidean},
+    internals::{
+        derived::{VoronoiShapes, sites_by_halves},
+        geometry::Euclidean,
+    },
     stats::Phase,
 };
 use rand::RngExt;
@@ -284,4 +287,41 @@ fn bad_masses_and_options_are_errors() {
     options.tolerance = 1e-300;
     let Error::TransportStopped { error: reached } = error(&points, clip, &options) else { panic!("it stopped") };
     assert!(reached.parse::<f64>().unwrap() < 1e-12, "{reached}");
+}
+
+#[test]
+fn sites_by_halves_have_cells_of_nearly_the_right_areas() {
+    let polygon: Vec<[f64; 2]> =
+        (0..7).map(|i| (f64::from(i) * std::f64::consts::TAU / 7.0).sin_cos()).map(|(y, x)| [1e3 + x, y]).collect();
+    let backwards: Vec<[f64; 2]> = polygon.iter().rev().copied().collect();
+    let mut random = Pcg64Mcg::seed_from_u64(11);
+    let masses: Vec<f64> = (0..500).map(|_| 100f64.powf(random.random())).collect();
+    let sum: f64 = masses.iter().sum();
+    for corners in [&polygon, &backwards] {
+        let sites = sites_by_halves(corners, &masses);
+        assert_eq!(sites, sites_by_halves(corners, &masses));
+        let mesh = gdel::delaunay2d(&sites).unwrap();
+        let areas = Voronoi::new(&mesh, &sites, Clip::Convex(corners)).unwrap().volumes();
+        let area: f64 = areas.iter().sum();
+        let ratios = areas.iter().zip(&masses).map(|(own, mass)| own / area / (mass / sum));
+        let mean = ratios.map(|ratio| ratio.ln().abs()).sum::<f64>() / 500.0;
+        assert!(mean < 0.3, "{mean}");
+        let found = Triangulator::new().transport2d(&sites, Clip::Convex(corners), &normalized(Some(&masses))).unwrap();
+        assert!(found.steps <= 8, "{}", found.steps);
+    }
+}
+
+#[test]
+fn sites_by_halves_of_few_and_strange_masses_are_inside() {
+    let square = [[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0f64]];
+    assert!(sites_by_halves(&square, &[]).is_empty());
+    assert_eq!(sites_by_halves(&square, &[7.0]), [[0.5, 0.5]]);
+    for masses in [vec![1.0, 1e-300, 1.0], vec![1e300; 9], vec![1e-18, 1.0, 1e-18, 1e18], vec![1.0; 64]] {
+        let sites = sites_by_halves(&square, &masses);
+        assert!(sites.iter().flatten().all(|x| (0.0..=1.0).contains(x)), "{masses:?}: {sites:?}");
+    }
+    // Without an inside, all are somewhere on it.
+    let flat = [[0.0, 0.0], [1.0, 1.0], [0.5, 0.5f64]];
+    assert!(sites_by_halves(&flat, &[1.0, 2.0, 3.0]).iter().all(|[x, y]| (x - y).abs() < 1e-12));
+    assert_eq!(sites_by_halves(&[], &[1.0]), [[0.0, 0.0]]);
 }

@@ -35,11 +35,11 @@ const codeTools = () => import('./core-tools.js');
 const workerTools: WorkerAsset = { file: () => new URL('./worker-tools.js', import.meta.url) };
 export const moduleTools: ModuleAsset = { wasm: wasmTools, worker: workerTools, code: codeTools };
 
-const wasmTransport: WasmAsset = {
+export const wasmTransport: WasmAsset = {
   name: 'transport',
   file: () => new URL('./gdel-transport.wasm', import.meta.url),
 };
-const codeTransport = () => import('./core-transport.js');
+export const codeTransport = () => import('./core-transport.js');
 const workerTransport: WorkerAsset = {
   file: () => new URL('./worker-transport.js', import.meta.url),
 };

@@ -22,11 +22,11 @@ const codeTools = () => import('./core-tools.js');
 const workerTools: WorkerAsset = { copy: () => import('text:tools') };
 export const moduleTools: ModuleAsset = { wasm: wasmTools, worker: workerTools, code: codeTools };
 
-const wasmTransport: WasmAsset = {
+export const wasmTransport: WasmAsset = {
   name: 'transport',
   copy: () => import('base64:transport'),
 };
-const codeTransport = () => import('./core-transport.js');
+export const codeTransport = () => import('./core-transport.js');
 const workerTransport: WorkerAsset = { copy: () => import('text:transport') };
 export const moduleTransport: ModuleAsset = {
   wasm: wasmTransport,

@@ -76,12 +76,12 @@ const workerTools: WorkerAsset = {
 };
 export const moduleTools: ModuleAsset = { wasm: wasmTools, worker: workerTools, code: codeTools };
 
-const wasmTransport: WasmAsset = {
+export const wasmTransport: WasmAsset = {
   name: 'transport',
   file: () => new URL('./gdel-transport.wasm', import.meta.url),
   copy: () => import('base64:transport'),
 };
-const codeTransport = () => import('./core-transport.js');
+export const codeTransport = () => import('./core-transport.js');
 const workerTransport: WorkerAsset = {
   start: () =>
     new Worker(new URL('./worker-transport.js', import.meta.url), {

@@ -10,7 +10,7 @@ import type { Instance } from './instance.js';
  */
 export function blockingInstance<Glue>(open: () => Instance<Glue>) {
   let instance: Instance<Glue> | undefined = open();
-  return <M extends { stats?: object }>(triangulate: (glue: Glue) => M): M => {
+  return <M extends object>(triangulate: (glue: Glue) => M & { stats?: object }): M => {
     const started = performance.now();
     const { glue, memory } = (instance ??= open());
     try {

@@ -1,8 +1,59 @@
-// The task of the module that finds weights with which cells have given volumes.
+// The tasks of the module that finds weights with which cells have given volumes, and treemaps of such cells.
 
 import makeGlue from 'glue:transport';
-import { type Core, coreOf, reporting } from './core.js';
+import type { Doubles } from './arrays.js';
+import { blockingInstance } from './blocking.js';
+import { type Core, coreOf, type ReportProgress, reporting } from './core.js';
 import { instantiate } from './instance.js';
+import { layOut, type PowerCells, type Solver } from './nested.js';
+import { bad, checkBoolean } from './options.js';
+import type { PowerTask, Tasks } from './protocol.js';
+
+type Glue = ReturnType<typeof makeGlue>;
+
+const solverOf = (glue: Glue, report: ReportProgress): Solver => ({
+  weights(points, corners, masses, tolerance, [start, length]) {
+    const options = { normalize: true, tolerance };
+    return glue.transport(
+      2,
+      points,
+      'corners',
+      corners,
+      masses,
+      options,
+      (phase: string, fraction: number) => report(phase, start + length * fraction),
+    );
+  },
+  cells: (points, weights, corners): PowerCells => glue.powerCells(points, weights, corners),
+  hull: (points) => glue.hullOf(points) as Doubles,
+  sites: (corners, masses) => glue.sitesByHalves(corners, masses) as Doubles,
+});
+
+/** What does the tasks with cells in the plane. */
+const tasksWith = (glue: Glue, report: ReportProgress) => ({
+  treemap: (task: Tasks['treemap']['args']) => layOut(task, solverOf(glue, report)),
+  powerCells({ points, weights, corners }: Tasks['powerCells']['args']) {
+    const solver = solverOf(glue, report);
+    return solver.cells(points, weights, solver.hull(corners));
+  },
+});
+
+/** Returns a function that does a task before it returns; it throws a `PlainError`. */
+export function createBlocking(module: WebAssembly.Module) {
+  const instance = blockingInstance(() => instantiate(makeGlue, module));
+  return <T extends PowerTask>(task: T, args: Tasks[T]['args']): Tasks[T]['result'] =>
+    instance((glue) => {
+      const run = tasksWith(glue, () => false)[task] as (args: object) => Tasks[T]['result'];
+      return run(args);
+    });
+}
+
+/** Checks the options of `transport` that are numbers or switches. */
+function checkTransport({ normalize, tolerance }: Tasks['transport']['args']['options']): void {
+  checkBoolean('normalize', normalize);
+  if (!(typeof tolerance === 'number' && tolerance > 0 && tolerance < 1))
+    throw bad('the option tolerance', 'a number between 0 and 1', tolerance);
+}
 
 export function openCore(module: WebAssembly.Module): Core {
   const { glue, memory } = instantiate(makeGlue, module);
@@ -10,9 +61,18 @@ export function openCore(module: WebAssembly.Module): Core {
     memory,
     handlers: {
       async transport({ dimension, points, clip, bounds, masses, options }, control) {
+        checkTransport(options);
         control.onBlocking();
         const report = reporting(control);
         return glue.transport(dimension, points, clip, bounds, masses, options, report);
+      },
+      async treemap(task, control) {
+        control.onBlocking();
+        return tasksWith(glue, reporting(control)).treemap(task);
+      },
+      async powerCells(task, control) {
+        control.onBlocking();
+        return tasksWith(glue, reporting(control)).powerCells(task);
       },
     },
   });

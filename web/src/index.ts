@@ -53,7 +53,17 @@ export {
 } from './resident.js';
 export { delaunaySphere, SphereMesh, type SphereOptions, SphereVoronoi } from './sphere.js';
 export type { ExactCounts, GpuStats, Round, SplayStats, UpdateStats } from './stats.js';
-export { delaunay2dSync, delaunay3dSync, load2d, load3d, loadConstraints } from './sync.js';
+/** @internal */
+export {
+  delaunay2dSync,
+  delaunay3dSync,
+  load2d,
+  load3d,
+  loadConstraints,
+  loadPower,
+  powerNow,
+  runPower,
+} from './sync.js';
 export {
   type GenerateOptions,
   generate,

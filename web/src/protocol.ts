@@ -25,6 +25,7 @@ import type { ConstrainedArrays } from './constrained.js';
 import type { Segments } from './constraints.js';
 import type { Buffer } from './device.js';
 import type { PlainError } from './errors.js';
+import type { PowerCells, TreemapArrays, TreemapTask } from './nested.js';
 import type {
   Backend,
   MeshView,
@@ -247,6 +248,8 @@ export interface Tasks {
     };
     result: Transport;
   };
+  treemap: { args: TreemapTask; result: TreemapArrays };
+  powerCells: { args: { points: Doubles; weights: Doubles; corners: Doubles }; result: PowerCells };
   alphaShape: {
     args: DerivedArgs & { options: AlphaOptions };
     result: AlphaShape;
@@ -272,6 +275,9 @@ export interface Tasks {
 }
 
 export type TaskName = keyof Tasks;
+
+/** The tasks with cells in the plane, which the interfaces of other packages call. */
+export type PowerTask = 'treemap' | 'powerCells';
 
 /** The tasks that triangulate. */
 export type Task = 'delaunay3d' | 'delaunay2d';

@@ -10,9 +10,12 @@
 //! 4. of that the largest of the shares 1, ½, ¼, … with which no cell becomes too small and the error falls.
 
 mod cells;
+mod halves;
 mod in_order;
 mod laplacian;
 mod sites;
+
+pub use halves::sites_by_halves;
 
 use super::voronoi::{Clip, VoronoiShapes};
 use crate::{
