@@ -16,7 +16,7 @@ export default defineConfig({
   build: {
     target: 'es2023',
     chunkSizeWarningLimit: 900,
-    rolldownOptions: { input: ['index.html', 'report/index.html'] },
+    rolldownOptions: { input: ['index.html', 'report/index.html', 'treemap/index.html'] },
   },
   server: { fs: { allow: ['..'] } },
   plugins: [

@@ -5,6 +5,7 @@
 //
 // Exits with 1 if a budget is exceeded.
 
+import assert from 'node:assert/strict';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { launchChromium, launchFirefox } from '../../tests/web/browsers.mjs';
@@ -48,6 +49,27 @@ async function pictureTimes(page) {
   });
 }
 
+/** How long the page for treemaps takes for 3,000 cells, from their values on, when its module is loaded. */
+async function treemapTimes(browser, url) {
+  const context = await browser.newContext({ reducedMotion: 'reduce', serviceWorkers: 'block' });
+  const page = await context.newPage();
+  await page.goto(`${url}treemap/#example=body`);
+  await settled(page);
+  const found = await times(7, async () => {
+    await page.selectOption('#source', 'many');
+    await settled(page);
+    const { milliseconds, error } = await page
+      .locator('#stage')
+      .evaluate(({ dataset }) => ({ ...dataset }));
+    assert.ok(Number(error) <= 1e-3, error);
+    await page.selectOption('#source', 'body');
+    await settled(page);
+    return Number(milliseconds);
+  });
+  await context.close();
+  return found;
+}
+
 async function benchPage() {
   const server = await servePage();
   const browser = await launch();
@@ -79,6 +101,7 @@ async function benchPage() {
     }
     report('cut through 1 M points', cuts, 500);
     report('picture of a scan of 110,000 points, from its mesh on', await pictureTimes(page), 1000);
+    report('treemap of 3,000 cells', await treemapTimes(browser, server.url), 300);
   } finally {
     await browser.close();
     await server.close();
