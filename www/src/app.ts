@@ -50,6 +50,7 @@ import { wireTabs } from './ui/tabs';
 import { paint, wireTheme } from './ui/theme';
 import { usePanel } from './ui/usePanel';
 import { viewPanel } from './ui/viewPanel';
+import { weights } from './ui/weights';
 import type { Viewer } from './view/viewer';
 
 /**
@@ -111,6 +112,7 @@ export class App implements Page {
       dock(this),
       notes(this),
       surfaceLine(this),
+      weights(this),
       scaleBar(this),
       axes(this),
       ruler(this),
@@ -167,10 +169,14 @@ export class App implements Page {
       if (this.awaited.asked.bare) source.bare = true;
       settings = { ...this.awaited.settings, source, ...settings };
     }
-    const { edits = [], backend = this.settings.backend } = settings;
+    const {
+      edits = [],
+      backend = this.settings.backend,
+      weights = source === this.settings.source ? this.settings.weights : null,
+    } = settings;
     return whileBusy(
-      this.newRun(source, { edits, ...settings }, (onProgress) =>
-        this.model.run(source, edits, backend, onProgress),
+      this.newRun(source, { edits, weights, ...settings }, (onProgress) =>
+        this.model.run(source, edits, weights, backend, onProgress),
       ),
     );
   }

@@ -30,7 +30,7 @@ export type Layer = (typeof LAYERS)[number];
 
 /** What a click does to 2D points. */
 export const TOOLS = ['move', 'add', 'remove'] as const;
-export type Tool = (typeof TOOLS)[number];
+export type Tool = (typeof TOOLS)[number] | 'weigh';
 
 /**
  * Everything that makes up a view, and so a link. Null stands for what suits the points: a new
@@ -40,6 +40,8 @@ export interface Settings {
   source: Source;
   /** The changes by hand, in 2D only. */
   edits: readonly Edit[];
+  /** Whether points have weights; null if all are the same. */
+  weights: Weighing | null;
   backend: Backend;
   color: ColorBy;
   map: ColorMapName;
@@ -60,10 +62,18 @@ export interface Settings {
   embed: boolean;
 }
 
+/** What the radii of points are taken from: a column of the file, or `random`. */
+export interface Weighing {
+  by: string;
+  /** By which they are multiplied; those at random are parts of the distance between points. */
+  scale: number;
+}
+
 type Vector = [number, number, number];
 
 /** What depends on the shape of the points, and what each new object begins with. */
 export const FRESH = {
+  weights: null,
   alpha: null,
   normal: null,
   keep: null,
@@ -138,6 +148,7 @@ export function toHash(settings: Settings): string {
   if (source.kind === 'generator')
     hash.set('points', [source.distribution, source.count, source.seed].join('_'));
   if (source.kind === 'generator' && edits.length > 0) hash.set('edits', editsToText(edits));
+  if (settings.weights) hash.set('weights', `${settings.weights.scale}_${settings.weights.by}`);
   start.filter = filterFor(source);
   start.color = colorFor(source);
   for (const key of ['backend', 'color', 'map', 'filter'] as const) {
@@ -172,6 +183,8 @@ export function fromHash(hash: string): Settings {
     : (sourceFrom(given.get('points'), dimension) ?? settings.source);
   settings.embed = given.has('embed');
   if (dimension === 2) settings.edits = editsFromText(given.get('edits') ?? '') ?? [];
+  const [, scale, by] = /^([\d.]+)_(.+)$/s.exec(given.get('weights') ?? '') ?? [];
+  if (by && Number(scale) <= 100) settings.weights = { by, scale: Number(scale) };
   settings.backend = choice('backend', ['auto', 'gpu', 'cpu'], settings.backend);
   settings.color = choice('color', colorsIn(dimension), colorFor(settings.source));
   settings.map = choice('map', Object.keys(COLOR_MAPS) as ColorMapName[], settings.map);

@@ -2,6 +2,8 @@
 export type Edit =
   | { do: 'add'; at: [number, number] }
   | { do: 'move'; point: number; at: [number, number] }
+  /** Makes a point as heavy as a ball of this radius. */
+  | { do: 'weigh'; point: number; radius: number }
   /** The points behind it move up. */
   | { do: 'remove'; point: number };
 
@@ -23,7 +25,7 @@ export function applyEdits(
       end += 2;
     } else if (2 * edit.point < end) {
       if (edit.do === 'move') edited.set(edit.at, 2 * edit.point);
-      else {
+      else if (edit.do === 'remove') {
         edited.copyWithin(2 * edit.point, 2 * edit.point + 2, end);
         end -= 2;
       }
@@ -50,22 +52,17 @@ export function colorsAfter(colors: Uint8Array, edits: readonly Edit[]): Uint8Ar
   return edited.subarray(0, end);
 }
 
-/** The changes with one more. A point that is moved again needs only the last place. */
+/** The changes with one more. A point that is moved or weighed again needs only the last place or radius. */
 export function withEdit(edits: readonly Edit[], edit: Edit): Edit[] {
   const last = edits.at(-1);
-  const again = last?.do === 'move' && edit.do === 'move' && last.point === edit.point;
+  const again =
+    edit.do !== 'add' && edit.do !== 'remove' && last?.do === edit.do && last.point === edit.point;
   return [...(again ? edits.slice(0, -1) : edits), edit];
 }
 
-/** For a link: `add_x_y*move_point_x_y*remove_point`. */
+/** For a link: `add_x_y*move_point_x_y*weigh_point_radius*remove_point`. */
 export function editsToText(edits: readonly Edit[]): string {
-  return edits
-    .map((edit) =>
-      [edit.do, ...('point' in edit ? [edit.point] : []), ...('at' in edit ? edit.at : [])].join(
-        '_',
-      ),
-    )
-    .join('*');
+  return edits.map((edit) => Object.values(edit).flat().join('_')).join('*');
 }
 
 /** The changes in a link, or null where it makes no sense. */
@@ -81,6 +78,8 @@ export function editsFromText(text: string): Edit[] | null {
     if (what === 'add' && numbers.length === 2) edits.push({ do: 'add', at });
     else if (what === 'move' && numbers.length === 3 && names)
       edits.push({ do: 'move', point, at });
+    else if (what === 'weigh' && numbers.length === 2 && names && numbers[1] >= 0)
+      edits.push({ do: 'weigh', point, radius: numbers[1] });
     else if (what === 'remove' && numbers.length === 1 && names)
       edits.push({ do: 'remove', point });
     else return null;

@@ -34,6 +34,8 @@ export class Model2d implements Model {
   private measures: Measures | null = null;
   private diagram: Voronoi | null = null;
   private drawing: Drawing | null = null;
+  /** Finds the diagram, with weights another one. */
+  private edges = voronoiEdges;
 
   private constructor(
     readonly points: Float32Array | Float64Array,
@@ -61,11 +63,14 @@ export class Model2d implements Model {
   static async make(
     triangulator: Triangulator,
     points: Float32Array | Float64Array,
-    options: RunOptions2,
+    options: RunOptions2 & { edges?: typeof voronoiEdges },
     about: About,
     frame: Frame,
   ): Promise<Model2d> {
-    return Model2d.of(await triangulator.delaunay2d(points, options), points, about, frame);
+    const { edges, ...run } = options;
+    const model = Model2d.of(await triangulator.delaunay2d(points, run), points, about, frame);
+    if (edges) model.edges = edges;
+    return model;
   }
 
   static of(mesh: Mesh2, points: Float32Array | Float64Array, about: About, frame: Frame): Model2d {
@@ -117,12 +122,7 @@ export class Model2d implements Model {
       ),
       pieces: null,
       voronoi: voronoi
-        ? (this.diagram ??= voronoiEdges(
-            this.points,
-            this.frame,
-            this.drawable,
-            this.surroundings(),
-          ))
+        ? (this.diagram ??= this.edges(this.points, this.frame, this.drawable, this.surroundings()))
         : null,
       scale,
       shown: count,

@@ -13,6 +13,7 @@ import type { Filter } from '../geometry/filter';
 import { frameOf } from '../geometry/mesh';
 import type { Ray } from '../geometry/pick';
 import type { Surface } from '../geometry/surface';
+import type { Weighing } from '../settings';
 import { type About, NOTHING_ABOUT } from './about';
 import { applyEdits, colorsAfter, type Edit } from './edits';
 import { Live, type LiveFrame } from './live';
@@ -23,6 +24,7 @@ import { type Format, type PrintFormat, printed, type SavedFile, save } from './
 import type { Found } from './scanned';
 import { Shown } from './shown';
 import { filterFor, load, type Source } from './source';
+import type { Weights } from './weighted';
 
 export type Progress = (progress: { phase: string; fraction: number }) => void;
 
@@ -35,14 +37,24 @@ export interface Edited {
   hull: Float32Array;
 }
 
+/** Points as they came, what is known about them, and what their weights are taken from. */
+interface Start {
+  points: Float32Array | Float64Array;
+  about: About;
+  source: Source | null;
+  weights: Weighing | null;
+}
+
 /** The points and the mesh live in this worker, so that the page never waits for them. */
 class ModelWorker {
   private readonly triangulator = createTriangulator();
   private model: Model3d | Model2d | null = null;
   /** The 2D points before any change by hand, and what is known about them. */
-  private start: { points: Float32Array | Float64Array; about: About } = {
+  private start: Start = {
     points: new Float64Array(),
     about: NOTHING_ABOUT,
+    source: null,
+    weights: null,
   };
   private live: Live | null = null;
   private readonly shown = new Shown();
@@ -52,13 +64,15 @@ class ModelWorker {
   run(
     source: Source,
     edits: readonly Edit[],
+    weights: Weighing | null,
     backend: Backend,
     onProgress: Progress,
   ): Promise<Summary> {
     return named(async () => {
       const signal = this.begin();
       const { points, about } = await load(source, { signal, onProgress });
-      const options = { backend, signal, onProgress };
+      const start = { points, about, source, weights };
+      const options = { backend, signal, onProgress, ...(await weighed(start, edits)) };
       const triangulator = await this.triangulator;
       this.model =
         source.dimension === 3
@@ -70,9 +84,9 @@ class ModelWorker {
               edited(about, edits),
               frameOf(points, 2),
             );
-      this.start = { points, about };
+      this.start = start;
       // While the page shows the points.
-      if (filterFor(source) === 'surface') void this.findSurface().catch(() => {});
+      if (!weights && filterFor(source) === 'surface') void this.findSurface().catch(() => {});
       onProgress({ phase: 'Measuring', fraction: 1 });
       return this.model.summary();
     });
@@ -89,7 +103,8 @@ class ModelWorker {
   /** Triangulates the 2D points with other changes, in the same frame. */
   edit(edits: readonly Edit[], backend: Backend, request: DrawRequest): Promise<Edited> {
     return named(async () => {
-      const options = { backend, signal: this.begin() };
+      const signal = this.begin();
+      const options = { backend, signal, ...(await weighed(this.start, edits)) };
       const model = await Model2d.make(
         await this.triangulator,
         applyEdits(this.start.points, edits),
@@ -205,6 +220,14 @@ class ModelWorker {
     return this.current.points;
   }
 
+  /** What can be said about the weights of points: see {@link Weights}. */
+  weights(): Promise<Weights> {
+    return named(async () => {
+      const { weightsOf } = await import('./weighted');
+      return weightsOf(this.current.mesh, this.start.source);
+    });
+  }
+
   hull(): Float32Array {
     return this.current.hull();
   }
@@ -259,6 +282,15 @@ class ModelWorker {
     if (!this.model) throw new Error('There is no mesh yet.');
     return this.model;
   }
+}
+
+/** Returns the weights of points, if they have some. */
+async function weighed(
+  { points, source, weights }: Start,
+  edits: readonly Edit[],
+): Promise<object> {
+  if (!weights && !edits.some((edit) => edit.do === 'weigh')) return {};
+  return (await import('./weighted')).weighed(points, source!, weights, edits);
 }
 
 /** What is known about points after changes by hand. */

@@ -5,12 +5,24 @@ import type { Settings } from '../settings';
 
 /** Returns the lines that do with the package what the page has just done, on exactly this input. */
 export function codeFor(
-  { source, backend, edits, filter }: Pick<Settings, 'source' | 'backend' | 'edits' | 'filter'>,
+  {
+    source,
+    backend,
+    edits,
+    filter,
+    weights = null,
+  }: Pick<Settings, 'source' | 'backend' | 'edits' | 'filter'> & Partial<Pick<Settings, 'weights'>>,
   summary: Pick<Summary, 'onFaces'> | null = null,
 ): string {
   const flat = source.dimension === 2;
   const triangulate = flat ? 'delaunay2d' : 'delaunay3d';
-  const options = backend === 'auto' ? '' : `, { backend: '${backend}' }`;
+  // Those of a column or at random are the page's.
+  const isWeighed = !weights && edits.some((edit) => edit.do === 'weigh');
+  const chosen = [
+    ...(backend === 'auto' ? [] : [`backend: '${backend}'`]),
+    ...(isWeighed ? ['radii'] : []),
+  ];
+  const options = chosen.length > 0 ? `, { ${chosen.join(', ')} }` : '';
   const { uses, lines } = pointsOf(source, summary?.onFaces?.taken ?? false);
   return [
     `// npm install gdel-wasm`,
@@ -18,7 +30,8 @@ export function codeFor(
     `  from 'gdel-wasm';`,
     ``,
     ...lines,
-    ...(edits.length > 0 ? changes(edits, source) : []),
+    ...(weights ? [`// The page gave them radii: { radii: […] }`] : []),
+    ...(edits.length > 0 ? changes(edits, source, isWeighed) : []),
     `const mesh = await ${triangulate}(`,
     `  ${edits.length > 0 ? 'Float64Array.from(changed)' : 'points'}${options});`,
     ``,
@@ -113,19 +126,26 @@ function readAll(addresses: readonly string[], flat: boolean): Lines {
 const FLAT = `const points = xyz.filter((_, i) => i % 3 < 2);`;
 
 /** The changes by hand, one a line; without those that name a point that is not there. */
-function changes(edits: readonly Edit[], source: Source): string[] {
+function changes(edits: readonly Edit[], source: Source, isWeighed: boolean): string[] {
   let count = source.kind === 'generator' ? source.count : Infinity;
+  const ifWeighed = (line: string) => (isWeighed ? [line] : []);
   return [
     `const changed = [...points];`,
+    ...ifWeighed(`const radii = Array(points.length / 2).fill(0);`),
     ...edits.flatMap((edit) => {
       if (edit.do === 'add') {
         count++;
-        return [`changed.push(${edit.at.join(', ')});`];
+        return [`changed.push(${edit.at.join(', ')});`, ...ifWeighed(`radii.push(0);`)];
       }
       if (edit.point >= count) return [];
-      if (edit.do === 'remove') count--;
-      const at = edit.do === 'move' ? `, ${edit.at.join(', ')}` : '';
-      return [`changed.splice(${2 * edit.point}, 2${at});`];
+      if (edit.do === 'weigh') return ifWeighed(`radii[${edit.point}] = ${edit.radius};`);
+      if (edit.do === 'move')
+        return [`changed.splice(${2 * edit.point}, 2, ${edit.at.join(', ')});`];
+      count--;
+      return [
+        `changed.splice(${2 * edit.point}, 2);`,
+        ...ifWeighed(`radii.splice(${edit.point}, 1);`),
+      ];
     }),
   ];
 }

@@ -132,6 +132,7 @@ const CHECKS: Record<string, string> = {
   'hull-closed': 'The hull is closed',
   'hull-convex': 'The hull is convex',
   'euler-characteristic': 'The mesh has no holes',
+  hidden: 'Hidden points are covered by heavier ones',
   covering: 'The cells fill the hull without overlap',
   constraints: 'Constraints are edges',
 };

@@ -1,6 +1,5 @@
 import type { SavedFile } from '../model/save';
 import type { Page } from '../page';
-import { stemOf } from './code';
 import { complaintAbout } from './complaint';
 import { create } from './dom';
 import { showMessage } from './message';
@@ -19,6 +18,7 @@ export async function download(
   showMessage(null);
   try {
     const files = await make();
+    const { stemOf } = await import('./code');
     const stem = stemOf(page.settings.source);
     for (const { extension, bytes } of files) {
       const link = create('a', {

@@ -26,6 +26,8 @@ export function editor(page: Page): Part {
   let held: number | null = null;
   /** What was taken back, the last first, until there is another change. */
   let undone: Edit[] = [];
+  /** The changes as they were last seen here. */
+  let latest = page.settings.edits;
   let pressed: { x: number; y: number; moved: boolean } | null = null;
 
   const flat = () => page.settings.source.dimension === 2 && !page.live && page.summary !== null;
@@ -160,13 +162,15 @@ export function editor(page: Page): Part {
     if (!last) return;
     undone.push(last);
     said.textContent = 'Undone';
-    void page.edit(page.settings.edits.slice(0, -1));
+    latest = page.settings.edits.slice(0, -1);
+    void page.edit(latest);
   };
   const bringBack = () => {
     const edit = undone.pop();
     if (!edit) return;
     said.textContent = 'Redone';
-    void page.edit([...page.settings.edits, edit]);
+    latest = [...page.settings.edits, edit];
+    void page.edit(latest);
   };
   canvas.addEventListener('keydown', (event) => {
     if (!flat() || event.altKey) return;
@@ -193,6 +197,9 @@ export function editor(page: Page): Part {
   });
 
   const show = () => {
+    // Something else has changed the points.
+    if (page.settings.edits !== latest) undone = [];
+    latest = page.settings.edits;
     canvas.dataset.tool = flat() ? page.tool : '';
     for (const radio of tools) radio.checked = radio.value === page.tool;
     undo.disabled = page.settings.edits.length === 0;

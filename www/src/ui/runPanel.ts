@@ -88,10 +88,11 @@ function showFigures({
 }
 
 /** Why a run of these points cannot be recorded, in a sentence; null where it can. */
-export function whyNotRecord({ summary, hasGpu }: Page): string | null {
+export function whyNotRecord({ summary, hasGpu, settings }: Page): string | null {
   if (!summary || summary.dimension === 2) return 'Only runs in 3D can be recorded.';
   if (hasGpu === false)
     return 'Runs are recorded on the GPU, and this browser offers none through WebGPU.';
+  if (settings.weights) return 'Points with weights are triangulated by the CPU.';
   if (summary.points > MAX_POINTS_TO_RECORD)
     return `Runs of up to ${count(MAX_POINTS_TO_RECORD)} points can be recorded.`;
   return null;

@@ -1,6 +1,5 @@
 import { FORMATS, type Format, type SavedFile } from '../model/save';
 import type { Page, Part } from '../page';
-import { codeFor } from './code';
 import { byId, count, create } from './dom';
 import { download } from './download';
 import { nameOf } from './result';
@@ -30,9 +29,17 @@ export function usePanel(page: Page): Part {
     }
     setTimeout(() => (copy.textContent = 'Copy'), 2500);
   });
+  const tell = async () => {
+    if (byId('use').hidden) return;
+    const { codeFor } = await import('./code');
+    byId('code').textContent = codeFor(page.settings, page.summary);
+  };
   return {
-    changed: () => (byId('code').textContent = codeFor(page.settings, page.summary)),
-    showed: () => byId('use').hidden || void describeMachine(page),
+    changed: () => void tell(),
+    showed() {
+      void tell();
+      if (!byId('use').hidden) void describeMachine(page);
+    },
   };
 }
 

@@ -8,6 +8,7 @@ import {
   editsToText,
   withEdit,
 } from '../../src/model/edits';
+import { weightsAfter } from '../../src/model/weighted';
 
 const EDITS: Edit[] = [
   { do: 'add', at: [0.5, -2.25] },
@@ -70,4 +71,20 @@ test('colours stay with their points', () => {
     { do: 'remove', point: 9 },
   ]);
   assert.deepEqual([...after], [2, 2, 2, 3, 3, 3, 0, 0, 0]);
+});
+
+test('weights belong to points, which move up', () => {
+  const edits: Edit[] = [
+    { do: 'weigh', point: 1, radius: 2 },
+    { do: 'add', at: [5, 6] },
+    { do: 'weigh', point: 2, radius: 0.5 },
+    { do: 'remove', point: 0 },
+    { do: 'weigh', point: 7, radius: 3 },
+  ];
+  assert.deepEqual([...applyEdits(Float64Array.of(1, 2, 3, 4), edits)], [3, 4, 5, 6]);
+  assert.deepEqual([...weightsAfter(Float64Array.of(9, 9), edits)], [4, 0.25]);
+  assert.deepEqual(editsFromText(editsToText(edits)), edits);
+  assert.equal(editsFromText('weigh_1_-2'), null);
+  const twice = withEdit(edits, { do: 'weigh', point: 7, radius: 1 });
+  assert.equal(twice.length, edits.length);
 });
