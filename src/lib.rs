@@ -92,7 +92,7 @@ mod random;
 mod slots;
 
 pub use backend::Backend;
-pub use constrained::{Constrained2, Constraints, Fill};
+pub use constrained::{Constrained2, Constraints, Fill, RefineLeft, RefineOptions, RefineStats, Refined2, Size};
 pub use d2::{
     Mesh2,
     verify::{MeshView2, verify2d},

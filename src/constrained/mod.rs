@@ -16,6 +16,7 @@
 mod fill;
 mod flat;
 mod insert;
+mod refine;
 mod split;
 mod topology;
 
@@ -29,6 +30,7 @@ use crate::{
     parallel::{self, Threads},
 };
 use insert::{Inserted, Inserter, Lost};
+pub use refine::{RefineLeft, RefineOptions, RefineStats, Refined2, Size};
 use split::Split;
 use topology::Marked;
 

@@ -22,6 +22,7 @@ mod inputs;
 mod meshes;
 mod moving;
 mod predicates;
+mod refining;
 mod regular;
 mod threads;
 mod typescript;

@@ -1,8 +1,11 @@
 //! Segments of `gdel triangulate`, from `--edges` or from shapes, and what becomes of them.
 
 use super::{failure::Failure, progress::Progress, report::ConstraintCounts};
-use clap::ValueEnum;
-use gdel::{Constrained2, Constraints, Error, Fill, MeshView2, Points, verify::Report, verify2d};
+use clap::{Args, ValueEnum};
+use gdel::{
+    Constrained2, Constraints, Error, Fill, MeshView2, Points, RefineOptions, RefineStats, Size, verify::Report,
+    verify2d,
+};
 use gdel_io::{
     PointCloud, ShapeFormat,
     files::{self, shown},
@@ -30,6 +33,57 @@ impl From<FillRule> for Fill {
             FillRule::Enclosed => Fill::Enclosed,
         }
     }
+}
+
+/// To what the triangles inside are refined.
+#[derive(Args)]
+pub(super) struct Refine {
+    /// Add points until no triangle inside has an angle below these degrees, at most 34, except where segments meet under
+    /// small angles. They are written after those of the input [default: 20 with the following options, else as it is]
+    #[arg(long, value_name = "DEGREES", help_heading = "Refinement of constrained meshes")]
+    min_angle: Option<f64>,
+    /// Add points until no triangle inside has a larger area
+    #[arg(long, value_name = "AREA", help_heading = "Refinement of constrained meshes")]
+    max_area: Option<f64>,
+    /// Add points until no triangle inside has a longer edge
+    #[arg(long, value_name = "LENGTH", help_heading = "Refinement of constrained meshes")]
+    max_edge: Option<f64>,
+    /// Add at most this many points, and say so where more would be needed
+    #[arg(long, value_name = "N", help_heading = "Refinement of constrained meshes")]
+    max_points: Option<usize>,
+}
+
+impl Refine {
+    /// Returns whether anything is to be refined.
+    pub(super) fn is_given(&self) -> bool {
+        self.min_angle.is_some() || self.max_area.is_some() || self.max_edge.is_some() || self.max_points.is_some()
+    }
+
+    fn options(&self) -> RefineOptions<'static> {
+        let mut options = RefineOptions::default();
+        options.min_angle = self.min_angle.unwrap_or(options.min_angle);
+        options.size = self.max_edge.map_or(Size::Any, Size::Uniform);
+        (options.max_area, options.max_points) = (self.max_area, self.max_points);
+        options
+    }
+
+    /// Refines a mesh, and counts what was done, if that is asked for.
+    pub(super) fn refine(&self, points: Points<'_, 2>, found: Constrained2) -> Result<Refined, Error> {
+        let at_crossings = found.added.len();
+        if !self.is_given() {
+            return Ok(Refined { found, at_crossings, stats: None });
+        }
+        let refined = found.refine(points, &self.options())?;
+        Ok(Refined { found: refined.constrained, at_crossings, stats: Some(refined.stats) })
+    }
+}
+
+/// A constrained mesh, refined or not.
+pub(super) struct Refined {
+    pub(super) found: Constrained2,
+    /// The number of points at crossings, which come first of those that were added.
+    pub(super) at_crossings: usize,
+    pub(super) stats: Option<RefineStats>,
 }
 
 /// Points with segments between them.
@@ -71,14 +125,16 @@ pub(super) fn is_of_segments(error: &Error) -> bool {
     matches!(error, Error::BadConstraint { .. } | Error::CrossingConstraints { .. } | Error::OpenBoundary { .. })
 }
 
-pub(super) fn counts(constraints: &Constraints, found: &Constrained2) -> ConstraintCounts {
+pub(super) fn counts(constraints: &Constraints, refined: &Refined) -> ConstraintCounts {
+    let Refined { found, at_crossings, stats } = refined;
     ConstraintCounts {
         segments: constraints.segments().len(),
         zero_length: found.zero_length,
         constrained_edges: found.mesh.constraints.len(),
         inside_triangles: found.inside_triangles().count(),
-        added_points: found.added.len(),
+        added_points: *at_crossings,
         moved: found.moved,
+        refined: *stats,
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::dimension::{Counts, Triangulation};
 use gdel::{
-    Backend,
+    Backend, RefineStats,
     stats::{ExactCounts, Fallback, GpuStats, Phase, SplayStats},
 };
 use gdel_io::PointCloud;
@@ -57,6 +57,8 @@ pub(super) struct ConstraintCounts {
     pub(super) added_points: usize,
     /// The greatest distance of one of these from its crossing.
     pub(super) moved: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) refined: Option<RefineStats>,
 }
 
 impl fmt::Display for ConstraintCounts {
@@ -72,7 +74,24 @@ impl fmt::Display for ConstraintCounts {
                 moved => write!(f, "at most {moved:e} from there")?,
             }
         }
-        writeln!(f, "\ninside          {} triangles", self.inside_triangles)
+        writeln!(f, "\ninside          {} triangles", self.inside_triangles)?;
+        let Some(RefineStats { points_on_segments, points_inside, min_angle, left, limited, .. }) = self.refined else {
+            return Ok(());
+        };
+        write!(f, "refined         {points_on_segments} points on segments, {points_inside} beside them; ")?;
+        write!(f, "the smallest angle is {min_angle:.2}°")?;
+        let kept = [(left.input_angle, "between segments"), (left.resolution, "where coordinates are too coarse")];
+        for (count, what) in kept.into_iter().filter(|&(count, _)| count > 0) {
+            write!(f, ", {count} triangles below the bound {what}")?;
+        }
+        if limited {
+            write!(
+                f,
+                "; more points are needed: {} triangles are below the bound, {} too large",
+                left.limit, left.too_large
+            )?;
+        }
+        writeln!(f)
     }
 }
 

@@ -1,7 +1,7 @@
 //! `gdel triangulate`: a point cloud in, its Delaunay triangulation out, or the regular one of weighted points.
 
 use super::{
-    constrain::{self, Constrained, FillRule},
+    constrain::{self, Constrained, FillRule, Refine, Refined},
     dimension::{Dimension, Rescale, Triangulation, in_dimension},
     failure::Failure,
     progress::Progress,
@@ -14,7 +14,7 @@ use clap::{
     builder::{PossibleValuesParser, TypedValueParser},
     error::ErrorKind,
 };
-use gdel::{Backend, Constrained2, Mesh3, Points, Triangulator};
+use gdel::{Backend, Mesh3, Points, Triangulator};
 use gdel_io::{
     PointCloud, PointFormat, ShapeFormat,
     files::{Input, Output},
@@ -37,7 +37,8 @@ pub(super) struct Arguments {
     /// .e57, .npy, .node, .f32 or .f64; or shapes: .geojson or .json, .svg, or .poly of the program Triangle; or `-` for
     /// standard input, with `--format`
     input: PathBuf,
-    /// Where to write: the mesh as .node, .ele and .neigh (TetGen, always all three), .vtu or .npz;
+    /// Where to write: the mesh as .node, .ele and .neigh (TetGen, always all three), .vtu, .npz, .msh (Gmsh) or, with
+    /// segments, .poly (Triangle);
     /// its hull as .ply, .obj, .stl, .glb or .3mf, for points in a plane their polygon from both sides; may
     /// be given several times
     #[arg(short, long = "output", value_name = "OUTPUT", value_parser = parse_output)]
@@ -75,6 +76,8 @@ pub(super) struct Arguments {
     /// written after those of the input
     #[arg(long)]
     split: bool,
+    #[command(flatten)]
+    refine: Refine,
     /// Where to compute; the mesh is the same everywhere
     #[arg(long, value_enum, default_value_t = BackendName::Auto)]
     backend: BackendName,
@@ -166,8 +169,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if let Some(edges) = &arguments.edges {
         return triangulate_edges(arguments, edges);
     }
-    if arguments.fill.is_some() || arguments.split {
-        return usage(ErrorKind::MissingRequiredArgument, "--fill and --split need segments: --edges, or shapes");
+    if arguments.fill.is_some() || arguments.split || arguments.refine.is_given() {
+        let what = "--fill, --split and the options of refinement need segments: --edges, or shapes";
+        return usage(ErrorKind::MissingRequiredArgument, what);
     }
     if arguments.sphere {
         return triangulate_sphere(arguments);
@@ -221,21 +225,26 @@ fn triangulate_constrained(arguments: &Arguments, read: Constrained, of_segments
         let path = if constrain::is_of_segments(&source) { of_segments } else { &arguments.input };
         Failure::Points { path: path.into(), source }
     };
-    let report = |found: &Constrained2, total, verified| {
-        let mut report = Report::new(&cloud, &found.mesh, total, verified);
-        report.constraints = Some(constrain::counts(&constraints, found));
+    let report = |refined: &Refined, total, verified| {
+        let mut report = Report::new(&cloud, &refined.found.mesh, total, verified);
+        report.constraints = Some(constrain::counts(&constraints, refined));
         print(arguments.stats, &report)
     };
     let triangulator = arguments.triangulator();
-    let triangulate = || timed(&triangulator, |triangulator| triangulator.constrained2d(points, &constraints));
+    let triangulate = || {
+        timed(&triangulator, |triangulator| {
+            arguments.refine.refine(points, triangulator.constrained2d(points, &constraints)?)
+        })
+    };
     // Each run gives its memory back before the next.
     for _ in 1..arguments.repeat.get() {
-        let (found, total) = triangulate().map_err(failure)?;
-        if !report(&found, total, None)? {
+        let (refined, total) = triangulate().map_err(failure)?;
+        if !report(&refined, total, None)? {
             break;
         }
     }
-    let (found, total) = triangulate().map_err(failure)?;
+    let (refined, total) = triangulate().map_err(failure)?;
+    let found = &refined.found;
     let all: Vec<[f64; 2]>;
     let points = if found.added.is_empty() {
         points
@@ -243,9 +252,9 @@ fn triangulate_constrained(arguments: &Arguments, read: Constrained, of_segments
         all = points.iter().chain(found.added.iter().copied()).collect();
         Points::F64(&all)
     };
-    let proof = arguments.verify.then(|| verify::proof(|| constrain::prove(points, &found))).transpose();
+    let proof = arguments.verify.then(|| verify::proof(|| constrain::prove(points, found))).transpose();
     let proof = proof.map_err(failure)?;
-    report(&found, total, proof.as_ref().map(gdel::verify::Report::passed))?;
+    report(&refined, total, proof.as_ref().map(gdel::verify::Report::passed))?;
     if let Some(proof) = &proof {
         verify::conclude(&arguments.input, proof)?;
     }

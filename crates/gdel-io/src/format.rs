@@ -87,6 +87,16 @@ formats! {
 }
 
 formats! {
+    /// A format of meshes for solvers, which is only written.
+    SolverFormat {
+        /// Gmsh's MSH: all points, constrained edges and simplices.
+        Msh: "msh",
+        /// Triangle's planar straight-line graphs: the points and constrained edges of a 2D mesh.
+        Poly: "poly",
+    }
+}
+
+formats! {
     /// A format of tables.
     TableFormat {
         /// Comma-separated values with the names of the columns in the first line.

@@ -18,12 +18,18 @@ use std::{
 ///
 /// Returns an error if `to` cannot be written.
 pub fn write_node<const D: usize>(mut to: impl Write, points: Points<'_, D>) -> io::Result<()> {
+    write_node_rows(&mut to, points)?;
+    writeln!(to, "# {MARK}")
+}
+
+/// Writes the counts and the points.
+pub(super) fn write_node_rows<const D: usize>(mut to: impl Write, points: Points<'_, D>) -> io::Result<()> {
     writeln!(to, "{} {D} 0 0", points.len())?;
-    write_rows(to, points.iter().map(|p| p.map(Shortest)))
+    write_numbered(to, points.iter().map(|p| p.map(Shortest)))
 }
 
 /// A number, written with the digits needed to read it back.
-struct Shortest(f64);
+pub(super) struct Shortest(pub(super) f64);
 
 impl Display for Shortest {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -56,12 +62,21 @@ pub fn write_neigh<const D: usize, const N: usize, M: Mesh<D, N>>(mut to: impl W
 
 /// Writes the rows, numbered from 0, and a comment where TetGen and Triangle have theirs.
 fn write_rows<T: Display, const N: usize>(mut to: impl Write, rows: impl Iterator<Item = [T; N]>) -> io::Result<()> {
+    write_numbered(&mut to, rows)?;
+    writeln!(to, "# {MARK}")
+}
+
+/// Writes the rows, numbered from 0.
+fn write_numbered<T: Display, const N: usize>(
+    mut to: impl Write,
+    rows: impl Iterator<Item = [T; N]>,
+) -> io::Result<()> {
     for (i, row) in rows.enumerate() {
         write!(to, "{i}")?;
         row.iter().try_for_each(|entry| write!(to, " {entry}"))?;
         writeln!(to)?;
     }
-    writeln!(to, "# {MARK}")
+    Ok(())
 }
 
 /// Reads the points of a `.node` file, numbered from 0 or 1; of 2D points the third coordinate is

@@ -5,10 +5,10 @@ use super::{
     temporary::{self, Prepared, prepare, publish},
 };
 use crate::{
-    Mesh, MeshFormat, PointFormat, SurfaceFormat,
+    Mesh, MeshFormat, PointFormat, SolverFormat, SurfaceFormat,
     surface::MARK,
     tetgen::{write_ele, write_neigh, write_node},
-    write_npz, write_vtu,
+    write_msh, write_npz, write_poly, write_vtu,
 };
 use gdel::Points;
 use std::{
@@ -27,6 +27,7 @@ pub struct Output {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum OutputFormat {
     Mesh(MeshFormat),
+    Solver(SolverFormat),
     Surface(SurfaceFormat),
 }
 
@@ -39,11 +40,13 @@ impl Output {
     pub fn new(path: &Path) -> Result<Self, FileError> {
         let format_of = |extension: &str| {
             let mesh = MeshFormat::from_extension(extension).map(OutputFormat::Mesh);
+            let mesh = mesh.or_else(|| SolverFormat::from_extension(extension).map(OutputFormat::Solver));
             mesh.or_else(|| SurfaceFormat::from_extension(extension).map(OutputFormat::Surface))
         };
         let meshes = MeshFormat::ALL.iter().flat_map(|f| f.extensions());
+        let solvers = SolverFormat::ALL.iter().flat_map(|f| f.extensions());
         let surfaces = SurfaceFormat::ALL.iter().flat_map(|f| f.extensions());
-        let format = by_extension(path, "meshes and hulls", format_of, meshes.chain(surfaces).copied())?;
+        let format = by_extension(path, "meshes and hulls", format_of, meshes.chain(solvers).chain(surfaces).copied())?;
         Ok(Output { path: path.into(), format })
     }
 
@@ -70,7 +73,7 @@ impl Output {
             check(&path, inputs)?;
             if !force && path.symlink_metadata().is_ok() && !is_generated(&path) {
                 let what = match self.format {
-                    OutputFormat::Mesh(_) => "a mesh that gdel wrote",
+                    OutputFormat::Mesh(_) | OutputFormat::Solver(_) => "a mesh that gdel wrote",
                     OutputFormat::Surface(_) => "a hull or triangulation that gdel wrote",
                 };
                 return Err(FileError::Exists { path, what: what.into() });
@@ -99,6 +102,12 @@ impl Output {
             ],
             (OutputFormat::Mesh(MeshFormat::Npz), _) => vec![prepare(&self.path, |to| write_npz(to, points, mesh))?],
             (OutputFormat::Mesh(_), _) => vec![prepare(&self.path, |to| write_vtu(to, points, mesh))?],
+            (OutputFormat::Solver(SolverFormat::Msh), _) => {
+                vec![prepare(&self.path, |to| write_msh(to, points, mesh))?]
+            }
+            (OutputFormat::Solver(SolverFormat::Poly), _) => {
+                vec![prepare(&self.path, |to| write_poly(to, points, mesh))?]
+            }
             (OutputFormat::Surface(format), _) => vec![prepare(&self.path, |to| format.write(to, points, mesh))?],
         };
         publish(parts)
