@@ -10,7 +10,7 @@
 Every sign is exact: grids, spheres, duplicates and flat input are ordinary input, and no simplex is flat.
 """
 
-from gdel._constrained import ConstrainedDelaunay
+from gdel._constrained import ConstrainedDelaunay, Refinement
 from gdel._delaunay import Delaunay, VerifyReport, tsearch
 from gdel._derived import AlphaShape, SpanningTree, Surface, alpha_shape, minimum_spanning_tree, nearest, surface
 from gdel._gdel import CrossingError, GpuError, __version__, adapters
@@ -31,6 +31,7 @@ __all__ = [
     "GpuError",
     "LinearNDInterpolator",
     "NaturalNeighborInterpolator",
+    "Refinement",
     "SpanningTree",
     "Surface",
     "VerifyReport",

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from types import SimpleNamespace
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
@@ -15,6 +17,26 @@ from gdel._points import Backend, Floats, Indices, Progress, as_floats, as_point
 Fill: TypeAlias = Literal["all", "evenodd", "nonzero", "enclosed"]
 
 _Segments: TypeAlias = npt.NDArray[np.uint32]
+
+
+@dataclass(frozen=True)
+class Refinement:
+    """What `ConstrainedDelaunay.refine` has done, and what is left."""
+
+    points_on_segments: int
+    points_inside: int
+    min_angle: float
+    """The smallest angle of the simplices inside, in degrees."""
+    at_input_angles: int
+    """Simplices with a smaller angle than asked for where segments meet under less than 60°."""
+    too_fine: int
+    """Those with a smaller angle because coordinates are too coarse for more points there."""
+    beyond_limit: int
+    """Those with a smaller angle because there were to be no more points."""
+    too_large: int
+    """Simplices that are larger than asked for, for either of the last two reasons."""
+    limited: bool
+    """Whether more points were needed than allowed."""
 
 
 class ConstrainedDelaunay(Delaunay):
@@ -144,7 +166,7 @@ class ConstrainedDelaunay(Delaunay):
 
     @property
     def segments(self) -> Indices:
-        """The segments, edges before rings and polygons, cut where a point was put at a crossing."""
+        """The segments, edges before rings and polygons, cut where a point was put on them."""
         segments: Indices = self._found["segments"]
         return segments
 
@@ -155,7 +177,7 @@ class ConstrainedDelaunay(Delaunay):
 
     @property
     def added(self) -> npt.NDArray[np.intp]:
-        """The points that were put at crossings."""
+        """The points that were put at crossings, and those of refinement."""
         added: npt.NDArray[np.intp] = self._found["added"]
         return added
 
@@ -168,6 +190,62 @@ class ConstrainedDelaunay(Delaunay):
         """Return whether there is a constrained edge between two points, which may be duplicates."""
         low, high = sorted(i if self.duplicate_of[i] < 0 else int(self.duplicate_of[i]) for i in (a, b))
         return bool(((self.constraints[:, 0] == low) & (self.constraints[:, 1] == high)).any())
+
+    def refine(
+        self,
+        *,
+        min_angle: float = 20.0,
+        max_area: float | None = None,
+        size: npt.ArrayLike | None = None,
+        max_points: int | None = None,
+    ) -> ConstrainedDelaunay:
+        """Return a new triangulation, with points added until all simplices inside are as asked for.
+
+        No angle is below `min_angle`, in degrees, at most 34, except where segments meet under small angles; no area is
+        larger than `max_area`, and no edge longer than `size`, one number or one for each point. Where the hull bounds
+        what is inside, its edges count as segments. At most `max_points` are added. `refinement` says what was done,
+        and `segment_of` of which segment each of the `segments`, which are pieces now, is a part.
+
+        >>> long = ConstrainedDelaunay(None, polygons=[[[(0, 0), (9, 0), (9, 1), (0, 1)]]])
+        >>> fine = long.refine(min_angle=30, max_area=0.1)
+        >>> fine.refinement.min_angle >= 30, bool(fine.volumes.max() <= 0.1), bool(fine.verify())
+        (True, True, True)
+        """
+        sizes = None if size is None else np.asarray(size, np.float64)
+        if sizes is not None and sizes.ndim > 1:
+            raise ValueError(f"size must be a number or one for each point, not an array of shape {sizes.shape}")
+        options = SimpleNamespace(
+            min_angle=float(min_angle),
+            max_area=None if max_area is None else float(max_area),
+            size=float(sizes) if sizes is not None and sizes.ndim == 0 else None,
+            sizes=np.ascontiguousarray(sizes) if sizes is not None and sizes.ndim == 1 else None,
+            max_points=max_points,
+        )
+        state = self._state
+        mesh, found = state.mesh.refine(state.points, self.inside, self.segments, options)
+        added: Floats = found.pop("added")
+        array = np.vstack([state.points, added]).astype(np.float64, copy=False) if len(added) else state.points
+        result = type(self).__new__(type(self))
+        result._found = {
+            **self._found,
+            **found,
+            "refinement": Refinement(**found["refinement"]),
+            "added": np.concatenate([self.added, np.arange(len(array) - len(added), len(array))]),
+        }
+        result._take(State(mesh, array), self._backend, self.threads)
+        return result
+
+    @property
+    def refinement(self) -> Refinement | None:
+        """What refinement has done, if this is its result."""
+        refinement: Refinement | None = self._found.get("refinement")
+        return refinement
+
+    @property
+    def segment_of(self) -> Indices:
+        """The segment that each of the segments is a piece of, before the last refinement; -1 for edges of the hull."""
+        given: Indices = self._found.get("segment_of", np.arange(len(self.segments), dtype=np.int32))
+        return given
 
     def verify(self) -> VerifyReport:
         """Prove that this is the constrained Delaunay triangulation of its points and segments, exactly."""

@@ -3,6 +3,7 @@
 use crate::{
     arrays::{self, Input, PyCsr},
     compute::{self, Options},
+    constrained,
     core::{Arrays, Core, Data, Derives},
     derived,
     errors::exception,
@@ -334,6 +335,22 @@ impl Mesh {
         let segments: &[u32] = bytemuck::cast_slice(segments.as_slice()?);
         match &self.either {
             Either::Two(data) => derived::verify_constrained(data, py, &input, segments.as_chunks().0, self.threads),
+            Either::Three(_) => Err(PyValueError::new_err("there are no constraints in 3D")),
+        }
+    }
+
+    /// The mesh with points added until the triangles inside are as asked for, and what became of segments.
+    fn refine<'py>(
+        &self,
+        py: Python<'py>,
+        points: &Bound<'py, PyAny>,
+        inside: PyReadonlyArray1<'py, bool>,
+        segments: PyReadonlyArray2<'py, i32>,
+        options: constrained::RefineArguments<'py>,
+    ) -> PyResult<(Mesh, Bound<'py, PyDict>)> {
+        let input = Input::new(points)?;
+        match &self.either {
+            Either::Two(data) => constrained::refine(py, &data.mesh, &input, inside, segments, options, self.threads),
             Either::Three(_) => Err(PyValueError::new_err("there are no constraints in 3D")),
         }
     }

@@ -134,3 +134,56 @@ def test_wrong_types() -> None:
     line = SimpleNamespace(__geo_interface__={"type": "LineString", "coordinates": SQUARE})
     with pytest.raises(TypeError, match="not a LineString"):
         gdel.ConstrainedDelaunay(None, polygons=[line])
+
+
+def angles(tri: gdel.ConstrainedDelaunay) -> np.ndarray:
+    """Return the angles of the simplices inside, in degrees."""
+    corners = tri.points[tri.inside_simplices]
+    sides = [corners[:, (k + 1) % 3] - corners[:, k] for k in range(3)]
+    turn = [(sides[k], -sides[k - 1]) for k in range(3)]
+    return np.degrees([np.arccos((u * v).sum(1) / np.linalg.norm(u, axis=1) / np.linalg.norm(v, axis=1)) for u, v in turn])
+
+
+def test_refinement() -> None:
+    tri = gdel.ConstrainedDelaunay(POINTS, rings=RINGS)
+    assert tri.refinement is None
+    assert tri.segment_of.tolist() == list(range(8))
+    fine = tri.refine(min_angle=30)
+    assert isinstance(fine, gdel.ConstrainedDelaunay)
+    assert (tri.npoints, area(fine)) == (9, 72)
+    assert fine.points[:9].tolist() == tri.points.tolist()
+    assert angles(fine).min() > 29.999
+    refinement = fine.refinement
+    assert refinement is not None
+    assert abs(refinement.min_angle - angles(fine).min()) < 1e-6
+    assert refinement.points_on_segments + refinement.points_inside == len(fine.added) == fine.npoints - 9
+    assert not refinement.limited
+    # Pieces in order: the first side goes from point 0 to point 1.
+    first = fine.segments[fine.segment_of == 0]
+    assert (first[0][0], first[-1][1]) == (0, 1)
+    assert (first[1:, 0] == first[:-1, 1]).all()
+    small = tri.refine(max_area=0.25, min_angle=25)
+    assert small.volumes[small.inside].max() <= 0.25
+    short = tri.refine(size=0.5)
+    corners = short.points[short.inside_simplices]
+    assert np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max() <= 0.5
+    graded = tri.refine(size=[0.1, 3, 3, 3, 3, 3, 3, 3, 3])
+    middles = graded.points[graded.inside_simplices].mean(axis=1)
+    assert (middles.sum(axis=1) < 4.5).sum() > (middles.sum(axis=1) > 13.5).sum()
+    limited = tri.refine(max_area=0.01, max_points=20)
+    assert len(limited.added) == 20
+    assert limited.refinement is not None
+    assert limited.refinement.limited
+    assert limited.verify()
+    again = pickle.loads(pickle.dumps(fine))
+    assert again.refinement == refinement
+    assert again.refine(min_angle=30, max_area=1).verify()
+
+
+def test_refinement_of_what_cannot_be_refined() -> None:
+    flat = gdel.ConstrainedDelaunay([(0, 0), (1, 1), (2, 2)], edges=[(0, 2)]).refine()
+    assert (flat.nsimplex, len(flat.constraints)) == (0, 2)
+    tri = gdel.ConstrainedDelaunay(POINTS)
+    for wrong in ({"min_angle": 35}, {"max_area": -1}, {"size": 0}, {"size": [1, 2]}, {"size": [[1, 2]]}):
+        with pytest.raises(ValueError, match="must be|there are"):
+            tri.refine(**wrong)

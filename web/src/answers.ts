@@ -131,6 +131,36 @@ export interface VoronoiOptions extends TaskOptions {
   clip?: 'none' | 'box' | 'hull' | Bounds | { corners: Points } | undefined;
 }
 
+/** Options of `refine`. */
+export interface RefineOptions extends TaskOptions {
+  /** The smallest angle of triangles, in degrees, from 0 to 34. Default 20. */
+  minAngle?: number | undefined;
+  /** The largest area of triangles. By default any. */
+  maxArea?: number | undefined;
+  /** The longest edge of triangles: one length, or one for each point, linear between them. By default any. */
+  size?: number | ArrayLike<number> | undefined;
+  /** How many points are added at most. By default as many as are needed. */
+  maxPoints?: number | undefined;
+}
+
+/** What `refine` has done, and which triangles are not as asked for. */
+export interface Refinement {
+  readonly pointsOnSegments: number;
+  readonly pointsInside: number;
+  /** The smallest angle of the triangles inside, in degrees. */
+  readonly minAngle: number;
+  /** Triangles with a smaller angle than asked for where segments meet under less than 60°. */
+  readonly atInputAngles: number;
+  /** Those with a smaller angle because coordinates are too coarse for more points there. */
+  readonly tooFine: number;
+  /** Those with a smaller angle because there were to be no more points. */
+  readonly beyondLimit: number;
+  /** Triangles that are larger than asked for, for either of the last two reasons. */
+  readonly tooLarge: number;
+  /** Whether more points were needed than allowed. */
+  readonly limited: boolean;
+}
+
 /** Options of `transport`. */
 export interface TransportOptions extends TaskOptions {
   /** What the cells are clipped to, as for `voronoi`, but not `'none'`. Default `'box'`. */

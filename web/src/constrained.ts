@@ -1,5 +1,6 @@
 // What became of constraints: a part of the code that is loaded when there are some.
 
+import type { Refinement } from './answers.js';
 import type { Bytes, Indices, SignedIndices } from './arrays.js';
 import { bad } from './options.js';
 
@@ -19,6 +20,10 @@ export interface ConstrainedArrays {
   readonly added: number;
   /** The greatest distance of such a point from its crossing. */
   readonly moved: number;
+  /** What refinement has done, if the mesh is its result. */
+  readonly refinement?: Refinement;
+  /** After refinement: the segment before it that each segment is a piece of; −1 for edges of the hull. */
+  readonly segmentOf?: SignedIndices;
 }
 
 /** What became of the constraints of a 2D mesh. */

@@ -80,6 +80,12 @@ export function openCore(module: WebAssembly.Module): Core {
         if (backend !== 'cpu') stats.fallback = 'there are constraints, which only the CPU takes';
         return { ...mesh, stats };
       },
+      async refine({ points, mesh, options }, control) {
+        const started = performance.now();
+        control.onBlocking();
+        const refined = glue.refine(points, mesh, options);
+        return { points, ...refined, stats: statsOfCpu(refined.stats, started, memory) };
+      },
     },
   });
 }

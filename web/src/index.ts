@@ -22,6 +22,8 @@ export type {
   LocateOptions,
   LocationsOnSphere,
   NearestOptions,
+  Refinement,
+  RefineOptions,
   SphereArrays,
   SphereEdges,
   SphereVoronoiArrays,

@@ -2,6 +2,7 @@ import type {
   Contour2,
   ContourOptions,
   LocateOptions,
+  RefineOptions,
   Surface2,
   SurfaceOptions,
   VoronoiOptions,
@@ -14,6 +15,7 @@ import type { TriangleFormat } from './files.js';
 import { bad } from './options.js';
 import { findNearest, Rings } from './plane.js';
 import type { Done } from './protocol.js';
+import { loadCode } from './runtime.js';
 import { write } from './tools.js';
 import type { Points, TaskOptions } from './types.js';
 import { Voronoi2 } from './voronoi2.js';
@@ -146,6 +148,22 @@ export class Mesh2 extends Mesh {
   insideTriangles(): Indices {
     const { inside } = this.constraints ?? {};
     return inside ? this.triangles.filter((_, e) => inside[(e / 3) | 0]) : this.triangles;
+  }
+
+  /**
+   * Returns a new mesh with points added on segments and inside, until the triangles inside have the shape and size that
+   * are asked for, except where segments meet under small angles. Where the hull bounds what is inside, its edges
+   * count as segments. `constraints.refinement` says what was done. The same input has the same result everywhere.
+   *
+   * ```js
+   * const mesh = await delaunay2d([], { polygons });
+   * const fine = await mesh.refine({ minAngle: 30, maxArea: 0.1 });
+   * ```
+   *
+   * @throws {@link GdelError} `BAD_INPUT`, also without constraints; `ABORTED`.
+   */
+  async refine(options?: RefineOptions): Promise<Mesh2> {
+    return (await loadCode(() => import('./refining.js'))).refine(this, options, Mesh2);
   }
 
   /** Returns the points that point `i` has an edge to; none for a duplicate. */

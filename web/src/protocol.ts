@@ -199,6 +199,10 @@ export interface Tasks {
     args: { points: Coordinates; backend: Backend; segments: Segments };
     result: Tasks['delaunay2d']['result'];
   };
+  refine: {
+    args: { points: Coordinates; mesh: object; options: object };
+    result: Tasks['delaunay2d']['result'];
+  };
   generate: { args: { kind: string; count: number; seed: bigint }; result: Doubles };
   readPoints: { args: { bytes: Uint8Array; extension: string }; result: PointCloud };
   readShapes: { args: { bytes: Uint8Array; extension: string }; result: Shapes };

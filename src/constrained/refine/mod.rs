@@ -61,7 +61,7 @@ pub enum Size<'a> {
     PerPoint(&'a [f64]),
     /// A length for each place, which is asked for at the centroids of triangles. Where it is not positive, there is no
     /// limit.
-    Field(&'a dyn Fn([f64; 2]) -> f64),
+    Field(&'a (dyn Fn([f64; 2]) -> f64 + Sync)),
 }
 
 impl std::fmt::Debug for Size<'_> {

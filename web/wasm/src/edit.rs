@@ -1,7 +1,7 @@
 //! Meshes in the memory of the CPU that gain and lose points, those of weighted points, and those with constraints.
 
 use gdel::{
-    Constraints, Error, Fill, Mesh2, Mesh3,
+    Constrained2, Constraints, Error, Fill, Mesh2, Mesh3, RefineOptions, Size,
     internals::{
         Options, Winding,
         constrained::constrained,
@@ -15,7 +15,7 @@ use gdel::{
     },
     stats::{Restart, UpdateStats},
 };
-use js_sys::{Float64Array, Function, Uint8Array, Uint32Array};
+use js_sys::{Float64Array, Function, Int32Array, Uint8Array, Uint32Array};
 use std::sync::Arc;
 use wasm_bindgen::{
     JsCast,
@@ -27,8 +27,8 @@ use crate::{
         d2::mesh2,
         d3::{Outputs, mesh3},
     },
-    mesh::CallerMesh,
-    objects::{Thrown, error, object, set},
+    mesh::{CallerMesh, property},
+    objects::{Thrown, error, get, object, set},
     points::Coordinates,
     run::reporting,
 };
@@ -110,6 +110,12 @@ pub fn constrained_triangulation(
     let holes = holes.as_chunks().0.iter();
     let constraints = holes.fold(constraints, |constraints, &[x, y]| constraints.hole([x, -y]));
     let found = constrained(coordinates.points()?, &constraints, &options)?;
+    Ok(constrained_mesh(found, coordinates).0)
+}
+
+/// Returns a mesh with what became of its constraints, and that alone. `coordinates` are those of the points that it was made
+/// of, *y* up.
+fn constrained_mesh(found: Constrained2, mut coordinates: Coordinates) -> (JsValue, JsValue) {
     let inside: Vec<u8> = found.inside.iter().map(|&inside| u8::from(inside)).collect();
     let constraints = object([
         ("edges", Uint32Array::new_from_slice(found.mesh.constraints.as_flattened()).into()),
@@ -121,12 +127,54 @@ pub fn constrained_triangulation(
         ("moved", found.moved.into()),
     ]);
     let mesh = mesh2(found.mesh, true);
-    set(&mesh, "constraints", constraints);
+    set(&mesh, "constraints", constraints.clone());
     if !found.added.is_empty() {
         coordinates.append(Coordinates::F64(found.added.into_flattened()));
         coordinates.flip_y();
         set(&mesh, "points", coordinates.into_js());
     }
+    (mesh, constraints)
+}
+
+/// Refines a mesh with constraints, in delaunator's orientation. `options` are those of JavaScript, with a number as `size`, or
+/// one for each point as `sizes`. The result has the points as well, if some were added.
+#[wasm_bindgen]
+pub fn refine(points: JsValue, mesh: &JsValue, options: &JsValue) -> Result<JsValue, Thrown> {
+    let mut coordinates = Coordinates::new(&points)?;
+    drop(points);
+    coordinates.flip_y();
+    let mut caller = CallerMesh::<3, 1>::new(mesh, "triangles", "halfedges")?;
+    let mut found = Constrained2::default();
+    found.segments = caller.constraints.segments.take().unwrap_or_default();
+    let inside = property::<Uint8Array>(&get(mesh, "constraints"), "inside")?.map(|inside| inside.to_vec());
+    found.inside = inside.unwrap_or_default().into_iter().map(|inside| inside != 0).collect();
+    found.mesh = Mesh2::from(caller);
+    let number = |name: &str| get(options, name).as_f64();
+    let sizes = property::<Float64Array>(options, "sizes")?.map(|sizes| sizes.to_vec());
+    let mut wanted = RefineOptions::default();
+    wanted.min_angle = number("minAngle").unwrap_or(wanted.min_angle);
+    (wanted.max_area, wanted.max_points) = (number("maxArea"), number("maxPoints").map(|count| count as usize));
+    wanted.size = match (&sizes, number("size")) {
+        (Some(sizes), _) => Size::PerPoint(sizes),
+        (None, Some(size)) => Size::Uniform(size),
+        (None, None) => Size::Any,
+    };
+    let refined = found.refine(coordinates.points()?, &wanted)?;
+    let (mesh, constraints) = constrained_mesh(refined.constrained, coordinates);
+    let count = |count: usize| JsValue::from(count as f64);
+    let (stats, left) = (refined.stats, refined.stats.left);
+    let refinement = object([
+        ("pointsOnSegments", count(stats.points_on_segments)),
+        ("pointsInside", count(stats.points_inside)),
+        ("minAngle", stats.min_angle.into()),
+        ("atInputAngles", count(left.input_angle)),
+        ("tooFine", count(left.resolution)),
+        ("beyondLimit", count(left.limit)),
+        ("tooLarge", count(left.too_large)),
+        ("limited", stats.limited.into()),
+    ]);
+    set(&constraints, "refinement", refinement);
+    set(&constraints, "segmentOf", Int32Array::new_from_slice(bytemuck::cast_slice(&refined.segment_of)).into());
     Ok(mesh)
 }
 

@@ -31,7 +31,7 @@ pub(crate) struct CallerMesh<const N: usize, const H: usize> {
 #[derive(Default)]
 pub(crate) struct CallerConstraints {
     pub(crate) edges: Vec<[u32; 2]>,
-    #[cfg_attr(not(feature = "tools"), expect(dead_code, reason = "segments are for proofs"))]
+    #[cfg_attr(not(any(feature = "tools", feature = "edit")), expect(dead_code, reason = "segments are for proofs"))]
     pub(crate) segments: Option<Vec<[u32; 2]>>,
 }
 

@@ -4,6 +4,7 @@ mod constrain;
 mod derived;
 mod inputs;
 mod outputs;
+mod refine;
 mod verify;
 mod weights;
 

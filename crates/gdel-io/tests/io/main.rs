@@ -14,4 +14,5 @@ mod outputs;
 mod points;
 mod rasters;
 mod shapes;
+mod solvers;
 mod three_mf;
