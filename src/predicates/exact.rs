@@ -17,7 +17,7 @@ use std::ops::Add;
 /// Every coordinate must be 0 or have a magnitude from 2⁻¹⁴⁰ to 2¹⁸⁷. Then their last bits are at
 /// 2⁻¹⁹³ or above, so a product of five has its last bit at 2⁻⁹⁶⁵ or above, and the determinants
 /// stay below 2¹⁰⁰⁰.
-fn expansions_are_exact<const D: usize>(points: &[[f64; D]]) -> bool {
+pub(crate) fn expansions_are_exact<const D: usize>(points: &[[f64; D]]) -> bool {
     const MIN: f64 = 1.0 / (1u128 << 127) as f64 / 8192.0;
     const MAX: f64 = (1u128 << 127) as f64 * (1u64 << 60) as f64;
     points.as_flattened().iter().all(|&x| x == 0.0 || (MIN..=MAX).contains(&x.abs()))
@@ -110,11 +110,13 @@ fn determinant(rows: &[&[Big]]) -> Big {
 /// assert_eq!(gdel::orient2d([0.1, 0.1], [0.3, 0.3], [0.7, 0.7]), 0);
 /// ```
 pub fn orient2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Sign {
-    if expansions_are_exact(&[a, b, c]) {
-        let [a, b, c] = [a, b, c].map(|[x, y]| Coord { x, y });
-        return sign(robust::orient2d(a, b, c));
-    }
-    big_sign(&[&b, &c, &a], false)
+    if expansions_are_exact(&[a, b, c]) { orient2d_by_expansions(a, b, c) } else { big_sign(&[&b, &c, &a], false) }
+}
+
+/// Returns [`orient2d`] of points whose [expansions are exact](expansions_are_exact).
+pub(crate) fn orient2d_by_expansions(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Sign {
+    let [a, b, c] = [a, b, c].map(|[x, y]| Coord { x, y });
+    sign(robust::orient2d(a, b, c))
 }
 
 /// Returns 1 if d is inside the circle through the counter-clockwise a, b, c, 0 if it is on it, −1
@@ -131,10 +133,15 @@ pub fn orient2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Sign {
 /// ```
 pub fn incircle(a: [f64; 2], b: [f64; 2], c: [f64; 2], d: [f64; 2]) -> Sign {
     if expansions_are_exact(&[a, b, c, d]) {
-        let [a, b, c, d] = [a, b, c, d].map(|[x, y]| Coord { x, y });
-        return sign(robust::incircle(a, b, c, d));
+        return incircle_by_expansions(a, b, c, d);
     }
     big_sign(&[&a, &b, &c, &d], true)
+}
+
+/// Returns [`incircle`] of points whose [expansions are exact](expansions_are_exact).
+pub(crate) fn incircle_by_expansions(a: [f64; 2], b: [f64; 2], c: [f64; 2], d: [f64; 2]) -> Sign {
+    let [a, b, c, d] = [a, b, c, d].map(|[x, y]| Coord { x, y });
+    sign(robust::incircle(a, b, c, d))
 }
 
 /// Returns the sign of det(b − a, c − a, d − a), exactly, for all finite coordinates: positive if

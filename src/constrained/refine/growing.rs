@@ -12,7 +12,9 @@ use crate::{
     error::Error,
     index::NONE,
     predicates::{
-        Sign, incircle, orient2d,
+        Sign,
+        exact::{expansions_are_exact, incircle_by_expansions, orient2d_by_expansions},
+        incircle, orient2d,
         symbolic::{break_tie, without},
     },
 };
@@ -60,6 +62,8 @@ pub(super) const BROKEN: Error = Error::BrokenMesh { reason: "a point has no pla
 /// The triangles, and the points.
 pub(super) struct Growing {
     pub(super) points: Vec<[f64; 2]>,
+    /// Whether the expansions of predicates are exact for all points.
+    is_moderate: bool,
     pub(super) triangles: Vec<Triangle>,
     /// A half-edge of each piece.
     pub(super) edges: Vec<u32>,
@@ -126,7 +130,8 @@ impl Growing {
         }
         let (free, cavity, border) = Default::default();
         let (stack, ears, made) = Default::default();
-        let growing = Growing { points, triangles, edges, made, free, cavity, border, stack, ears };
+        let is_moderate = expansions_are_exact(&points);
+        let growing = Growing { points, is_moderate, triangles, edges, made, free, cavity, border, stack, ears };
         let is_mutual = |e: u32| {
             let twin = growing.twin(e);
             twin == NONE || growing.twin(twin) == e && growing.origin(twin) == growing.target(e)
@@ -176,12 +181,23 @@ impl Growing {
         self.edges[piece as usize] = e;
     }
 
-    fn orient(&self, a: u32, b: u32, p: [f64; 2]) -> Sign {
-        orient2d(self.point(a), self.point(b), p)
+    /// Adds a point, which is no vertex yet.
+    pub(super) fn push(&mut self, p: [f64; 2]) {
+        self.is_moderate &= expansions_are_exact(&[p]);
+        self.points.push(p);
     }
 
-    /// Walks from a triangle straight to a place, up to the first piece of a segment.
-    pub(super) fn walk(&self, t: u32, goal: [f64; 2]) -> Place {
+    fn orient2d(&self, a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Sign {
+        if self.is_moderate { orient2d_by_expansions(a, b, c) } else { orient2d(a, b, c) }
+    }
+
+    fn orient(&self, a: u32, b: u32, p: [f64; 2]) -> Sign {
+        self.orient2d(self.point(a), self.point(b), p)
+    }
+
+    /// Walks from a triangle straight to the last point, up to the first piece of a segment.
+    pub(super) fn walk(&self, t: u32) -> Place {
+        let goal = self.points[self.points.len() - 1];
         let Some(mut crossed) = (3 * t..3 * t + 3).find(|&e| self.orient(self.origin(e), self.target(e), goal) < 0)
         else {
             return self.place(t, goal);
@@ -192,7 +208,7 @@ impl Growing {
             match (self.piece(crossed), self.twin(crossed)) {
                 (NONE, NONE) => return Place::Nowhere,
                 (NONE, twin) => {
-                    let is_right = orient2d(start, goal, self.point(self.apex(twin))) > 0;
+                    let is_right = self.orient2d(start, goal, self.point(self.apex(twin))) > 0;
                     crossed = if is_right { next(twin) } else { previous(twin) };
                     if self.orient(self.origin(crossed), self.target(crossed), goal) >= 0 {
                         return self.place(crossed / 3, goal);
@@ -226,14 +242,12 @@ impl Growing {
     fn is_in_circle(&self, [a, b, c]: [u32; 3], v: u32) -> bool {
         let four = [a, b, c, v];
         let [pa, pb, pc, p] = four.map(|v| self.point(v));
-        let sign = match incircle(pa, pb, pc, p) {
-            0 => break_tie(four, |left_out| {
-                let [a, b, c] = without(four, left_out).map(|v| self.point(v));
-                orient2d(a, b, c)
-            }),
-            sign => sign,
+        let sign = if self.is_moderate { incircle_by_expansions(pa, pb, pc, p) } else { incircle(pa, pb, pc, p) };
+        let is_in = |left_out| {
+            let [a, b, c] = without(four, left_out);
+            self.orient(a, b, self.point(c))
         };
-        sign > 0
+        (if sign == 0 { break_tie(four, is_in) } else { sign }) > 0
     }
 
     /// Finds the cavity of the last point, which is in a triangle.

@@ -192,7 +192,7 @@ impl<'a> Improver<'a> {
         if !self.pieces.is_acute(piece) {
             self.clear(piece);
         }
-        self.mesh.points.push(place);
+        self.mesh.push(place);
         if !self.dig_near(piece, place)? {
             self.mesh.points.pop();
             return Ok(false);
@@ -227,12 +227,12 @@ impl<'a> Improver<'a> {
         if self.mesh.dig_at(piece)? {
             return Ok(true);
         }
-        let last = self.mesh.points.len() - 1;
         let largest = self.ends(piece).as_flattened().iter().fold(f64::MIN_POSITIVE, |largest, x| largest.max(x.abs()));
         let mut unit = largest * f64::EPSILON;
         while unit <= MAX_NUDGE * f64::EPSILON * largest {
             for [x, y] in NUDGES {
-                self.mesh.points[last] = [place[0] + x * unit, place[1] + y * unit];
+                self.mesh.points.pop();
+                self.mesh.push([place[0] + x * unit, place[1] + y * unit]);
                 if self.mesh.dig_at(piece)? {
                     return Ok(true);
                 }
@@ -282,34 +282,36 @@ impl<'a> Improver<'a> {
         if !place.iter().all(|x| x.is_finite()) {
             return Ok(());
         }
-        let start = match self.mesh.walk(t, place) {
-            Place::Triangle(start) => start,
-            Place::Piece(piece) => {
-                self.enqueue_piece(piece);
-                return Ok(());
+        self.mesh.push(place);
+        let near = match self.mesh.walk(t) {
+            Place::Piece(piece) => vec![piece],
+            Place::Triangle(start) if !self.is_full() => {
+                self.mesh.dig(start)?;
+                let is_near = |&piece: &u32| self.shape.is_near(self.ends(piece), place);
+                let near: Vec<u32> = self.mesh.border_pieces().filter(is_near).collect();
+                if near.is_empty() {
+                    self.join(start, place);
+                    return Ok(());
+                }
+                near
             }
-            Place::Nowhere => return Ok(()),
+            _ => Vec::new(),
         };
-        if self.is_full() {
-            return Ok(());
-        }
-        self.mesh.points.push(place);
-        self.mesh.dig(start)?;
-        let is_near = |&piece: &u32| self.shape.is_near(self.ends(piece), place);
-        let near: Vec<u32> = self.mesh.border_pieces().filter(is_near).collect();
-        if !near.is_empty() {
-            self.mesh.points.pop();
-            near.into_iter().for_each(|piece| self.enqueue_piece(piece));
-            return Ok(());
-        }
+        self.mesh.points.pop();
+        near.into_iter().for_each(|piece| self.enqueue_piece(piece));
+        Ok(())
+    }
+
+    /// Makes the last point, at this place in a triangle, a vertex.
+    fn join(&mut self, start: u32, place: [f64; 2]) {
         self.left -= 1;
         self.pieces.vertices.push(Vertex::Free);
         if !self.sizes.is_empty() {
             self.sizes.push(self.size_at(start, place));
         }
         self.mesh.fill();
-        self.look_at_made();
-        Ok(())
+        // The new vertex is near no piece.
+        (0..self.mesh.made.len()).for_each(|i| self.look_at(self.mesh.made[i]));
     }
 
     /// Returns the size at a place in a triangle: linear between those at its vertices.
