@@ -33,6 +33,7 @@
 //! | Which solid, or which surface, do the points describe? | [`AlphaShape`] |
 //! | What connects all points at the least length? Which clusters are there? | [`SpanningTree`] |
 //! | Which triangles has a polygon with holes, or a terrain with breaklines? | [`Triangulator::constrained2d`] |
+//! | How does such a mesh get triangles for simulations, without small angles? | [`Constrained2::refine`] |
 //! | The same for places on a globe, by longitude and latitude | [`Sphere`] |
 //! | Which edges, facets and neighbours are there? | [`Mesh3::edges`], [`facets`](Mesh3::facets), [`vertex_neighbors`](Mesh3::vertex_neighbors) |
 //! | How large and how well shaped is each simplex? | [`Mesh3::volumes`], [`circumcenters`](Mesh3::circumcenters), [`radius_ratios`](Mesh3::radius_ratios) |

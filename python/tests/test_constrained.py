@@ -2,6 +2,7 @@
 
 import pickle
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -141,7 +142,9 @@ def angles(tri: gdel.ConstrainedDelaunay) -> np.ndarray:
     corners = tri.points[tri.inside_simplices]
     sides = [corners[:, (k + 1) % 3] - corners[:, k] for k in range(3)]
     turn = [(sides[k], -sides[k - 1]) for k in range(3)]
-    return np.degrees([np.arccos((u * v).sum(1) / np.linalg.norm(u, axis=1) / np.linalg.norm(v, axis=1)) for u, v in turn])
+    return np.degrees(
+        [np.arccos((u * v).sum(1) / np.linalg.norm(u, axis=1) / np.linalg.norm(v, axis=1)) for u, v in turn]
+    )
 
 
 def test_refinement() -> None:
@@ -184,6 +187,13 @@ def test_refinement_of_what_cannot_be_refined() -> None:
     flat = gdel.ConstrainedDelaunay([(0, 0), (1, 1), (2, 2)], edges=[(0, 2)]).refine()
     assert (flat.nsimplex, len(flat.constraints)) == (0, 2)
     tri = gdel.ConstrainedDelaunay(POINTS)
-    for wrong in ({"min_angle": 35}, {"max_area": -1}, {"size": 0}, {"size": [1, 2]}, {"size": [[1, 2]]}):
-        with pytest.raises(ValueError, match="must be|there are"):
+    cases: list[dict[str, Any]] = [
+        {"min_angle": 35},
+        {"max_area": -1},
+        {"size": 0},
+        {"size": [1, 2]},
+        {"size": [[1, 2]]},
+    ]
+    for wrong in cases:
+        with pytest.raises(ValueError, match=r"must be|there are"):
             tri.refine(**wrong)
