@@ -498,7 +498,22 @@ fn what_is_wrong_is_an_error() {
     assert_eq!(fewer.unwrap_err(), Error::PointCount { points: 10, expected: 11 });
     let other: Vec<Point> = points.iter().rev().copied().collect();
     assert!(matches!(found.refine(&other, &RefineOptions::default()), Err(Error::BrokenMesh { .. })));
+    let breaks: [fn(&mut Constrained2); 6] = [
+        |found| drop(found.inside.pop()),
+        |found| found.mesh.triangles[0][1] = 99,
+        |found| found.mesh.triangles[0][1] = NONE,
+        |found| found.mesh.halfedges[0] = [1, 2, 99],
+        |found| found.mesh.duplicate_of[3] = 99,
+        |found| found.mesh.constraints.swap(0, 1),
+    ];
+    for (i, spoil) in breaks.iter().enumerate() {
+        let mut broken = found.clone();
+        spoil(&mut broken);
+        let error = broken.refine(&points, &RefineOptions::default()).map(drop);
+        assert!(matches!(error, Err(Error::BrokenMesh { .. })), "{i}: {error:?}");
+    }
     let mut broken = found.clone();
-    broken.inside.pop();
-    assert!(matches!(broken.refine(&points, &RefineOptions::default()), Err(Error::BrokenMesh { .. })));
+    broken.segments[1] = [3, 99];
+    let error = broken.refine(&points, &RefineOptions::default()).map(drop).unwrap_err();
+    assert_eq!(error, Error::BadConstraint { segment: [3, 99], points: 11 });
 }

@@ -91,7 +91,7 @@ impl Growing {
         if mesh.halfedges.len() != count || inside.len() != count {
             return bad("its arrays have different lengths");
         }
-        if mesh.triangles.as_flattened().iter().any(|&v| v as usize >= points.len()) {
+        if mesh.triangles.as_flattened().contains(&NONE) {
             return bad("a vertex is not a point");
         }
         let shifts: Vec<u8> =

@@ -25,7 +25,7 @@ mod queue;
 mod shape;
 
 use super::Constrained2;
-use crate::{error::Error, input::points::Points2};
+use crate::{error::Error, index::NONE, input::points::Points2};
 use growing::Growing;
 use improve::Improver;
 
@@ -235,6 +235,7 @@ impl Constrained2 {
         let all: Vec<[f64; 2]> = points.iter().chain(self.added.iter().copied()).collect();
         let count = all.len();
         options.check(count)?;
+        self.check_indices(count)?;
         if self.mesh.triangles.is_empty() {
             let segment_of = (0..self.segments.len() as u32).collect();
             return Ok(Refined2 { constrained: self.clone(), segment_of, stats: RefineStats::default() });
@@ -243,5 +244,23 @@ impl Constrained2 {
         let mut improver = Improver::new(mesh, &self.mesh.constraints, options);
         improver.improve()?;
         Ok(finish::finish(&improver, self, count))
+    }
+
+    /// Checks that all lists name points.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::BadConstraint`] or [`Error::BrokenMesh`].
+    fn check_indices(&self, points: usize) -> Result<(), Error> {
+        let is_point = |&v: &u32| (v as usize) < points;
+        let constraints = self.segments.iter().chain(&self.mesh.constraints);
+        if let Some(&segment) = constraints.clone().find(|ends| !ends.iter().all(is_point)) {
+            return Err(Error::BadConstraint { segment, points });
+        }
+        let vertices = self.mesh.triangles.as_flattened().iter().chain(&self.mesh.duplicate_of);
+        match vertices.filter(|&&v| v != NONE).all(is_point) {
+            true => Ok(()),
+            false => Err(Error::BrokenMesh { reason: "a vertex is not a point" }),
+        }
     }
 }
