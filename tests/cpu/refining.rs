@@ -54,7 +54,7 @@ fn moderate(points: &[Point]) -> Vec<Point> {
 }
 
 fn smallest_angle([a, b, c]: [Point; 3]) -> f64 {
-    let angle = |a, b, c| cross(minus(b, a), minus(c, a)).atan2(dot(minus(b, a), minus(c, a)));
+    let angle = |a, b, c| cross(minus(b, a), minus(c, a)).abs().atan2(dot(minus(b, a), minus(c, a)));
     [angle(a, b, c), angle(b, c, a), angle(c, a, b)].into_iter().fold(f64::INFINITY, f64::min).to_degrees()
 }
 
@@ -499,7 +499,7 @@ fn what_is_wrong_is_an_error() {
     let other: Vec<Point> = points.iter().rev().copied().collect();
     assert!(matches!(found.refine(&other, &RefineOptions::default()), Err(Error::BrokenMesh { .. })));
     let breaks: [fn(&mut Constrained2); 6] = [
-        |found| drop(found.inside.pop()),
+        |found| _ = found.inside.pop(),
         |found| found.mesh.triangles[0][1] = 99,
         |found| found.mesh.triangles[0][1] = NONE,
         |found| found.mesh.halfedges[0] = [1, 2, 99],
