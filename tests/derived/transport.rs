@@ -290,7 +290,7 @@ fn bad_masses_and_options_are_errors() {
 }
 
 #[test]
-fn sites_by_halves_have_cells_of_nearly_the_right_areas() {
+fn sites_by_halves_are_few_steps_from_the_areas() {
     let polygon: Vec<[f64; 2]> =
         (0..7).map(|i| (f64::from(i) * std::f64::consts::TAU / 7.0).sin_cos()).map(|(y, x)| [1e3 + x, y]).collect();
     let backwards: Vec<[f64; 2]> = polygon.iter().rev().copied().collect();
@@ -303,11 +303,13 @@ fn sites_by_halves_have_cells_of_nearly_the_right_areas() {
         let mesh = gdel::delaunay2d(&sites).unwrap();
         let areas = Voronoi::new(&mesh, &sites, Clip::Convex(corners)).unwrap().volumes();
         let area: f64 = areas.iter().sum();
-        let ratios = areas.iter().zip(&masses).map(|(own, mass)| own / area / (mass / sum));
-        let mean = ratios.map(|ratio| ratio.ln().abs()).sum::<f64>() / 500.0;
-        assert!(mean < 0.3, "{mean}");
+        let wrong = |ratios: &mut dyn Iterator<Item = f64>| ratios.map(|ratio| ratio.ln().abs()).sum::<f64>() / 500.0;
+        let own = wrong(&mut areas.iter().zip(&masses).map(|(own, mass)| own / area / (mass / sum)));
+        let equal = wrong(&mut masses.iter().map(|mass| 500.0 * mass / sum));
+        assert!(own < 0.75 * equal, "{own} {equal}");
+        // From random sites, they are ten.
         let found = Triangulator::new().transport2d(&sites, Clip::Convex(corners), &normalized(Some(&masses))).unwrap();
-        assert!(found.steps <= 8, "{}", found.steps);
+        assert!(found.steps <= 7, "{}", found.steps);
     }
 }
 

@@ -12,9 +12,10 @@ import { coordinatesOf } from './given.js';
 import { instantiate } from './instance.js';
 import { outputsFor, withEmpty } from './outputs.js';
 import type { Tasks } from './protocol.js';
+import { refineArgs } from './refining.js';
 import type { ConstraintOptions } from './types.js';
 
-export { extrasOf };
+export { extrasOf, refineArgs };
 
 /** Returns a result whose constraints have methods, which cannot be sent from a worker. */
 export const withConstraints = (result: Tasks['constrained']['result']) => ({
@@ -80,10 +81,13 @@ export function openCore(module: WebAssembly.Module): Core {
         if (backend !== 'cpu') stats.fallback = 'there are constraints, which only the CPU takes';
         return { ...mesh, stats };
       },
-      async refine({ points, mesh, options }, control) {
+      async refine({ points, mesh, options, before }, control) {
         const started = performance.now();
         control.onBlocking();
         const refined = glue.refine(points, mesh, options);
+        // Points at crossings were added before.
+        const { constraints } = refined;
+        Object.assign(constraints, before, { added: constraints.added + before.added });
         return { points, ...refined, stats: statsOfCpu(refined.stats, started, memory) };
       },
     },

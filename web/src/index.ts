@@ -45,6 +45,8 @@ export { GdelError, type GdelErrorCode } from './errors.js';
 export type { Triangles } from './files.js';
 export { type Locations3, Mesh3 } from './mesh.js';
 export { type Locations2, Mesh2 } from './mesh2.js';
+/** @internal */
+export { loadPower, powerNow, runPower } from './power.js';
 export {
   type GpuBuffer,
   type ResidentArrays2,
@@ -55,17 +57,7 @@ export {
 } from './resident.js';
 export { delaunaySphere, SphereMesh, type SphereOptions, SphereVoronoi } from './sphere.js';
 export type { ExactCounts, GpuStats, Round, SplayStats, UpdateStats } from './stats.js';
-/** @internal */
-export {
-  delaunay2dSync,
-  delaunay3dSync,
-  load2d,
-  load3d,
-  loadConstraints,
-  loadPower,
-  powerNow,
-  runPower,
-} from './sync.js';
+export { delaunay2dSync, delaunay3dSync, load2d, load3d, loadConstraints } from './sync.js';
 export {
   type GenerateOptions,
   generate,

@@ -1,3 +1,4 @@
+import { codeEdit, moduleEdit } from '#assets';
 import type {
   Contour2,
   ContourOptions,
@@ -11,15 +12,17 @@ import type { Bytes, Coordinates, Indices, SignedIndices } from './arrays.js';
 import { Mesh } from './changing.js';
 import type { Constrained } from './constrained.js';
 import { contours, locate, type Source, surface, voronoi } from './derived.js';
+import { thrown } from './errors.js';
 import type { TriangleFormat } from './files.js';
-import { bad } from './options.js';
+import { bad, optionsOf, taskOptions } from './options.js';
 import { findNearest, Rings } from './plane.js';
 import type { Done } from './protocol.js';
 import { loadCode } from './runtime.js';
+import { runShared } from './shared.js';
 import { write } from './tools.js';
 import type { Points, TaskOptions } from './types.js';
 import { Voronoi2 } from './voronoi2.js';
-import { checkDelaunay } from './weights.js';
+import { checkDelaunay, checkUnconstrained } from './weights.js';
 
 /** Where points are in a 2D mesh. */
 export interface Locations2 {
@@ -163,7 +166,14 @@ export class Mesh2 extends Mesh {
    * @throws {@link GdelError} `BAD_INPUT`, also without constraints; `ABORTED`.
    */
   async refine(options?: RefineOptions): Promise<Mesh2> {
-    return (await loadCode(() => import('./refining.js'))).refine(this, options, Mesh2);
+    const task = taskOptions(optionsOf(options));
+    const { refineArgs, withConstraints } = await loadCode(codeEdit);
+    const args = thrown(() => refineArgs(this, options));
+    const result = withConstraints(await runShared(moduleEdit, 'refine', args, task));
+    const { thread, whyThread, whyInlined } = this.stats;
+    const place = { thread, whyThread, whyInlined };
+    // Meshes with constraints are not updated.
+    return new Mesh2({ result, place }, async () => checkUnconstrained(this) as never);
   }
 
   /** Returns the points that point `i` has an edge to; none for a duplicate. */

@@ -200,8 +200,14 @@ export interface Tasks {
     result: Tasks['delaunay2d']['result'];
   };
   refine: {
-    args: { points: Coordinates; mesh: object; options: object };
-    result: Tasks['delaunay2d']['result'];
+    args: {
+      points: Coordinates;
+      mesh: object;
+      options: object;
+      /** What was known of the constraints. */
+      before: Pick<ConstrainedArrays, 'added' | 'moved' | 'zeroLength'>;
+    };
+    result: Tasks['constrained']['result'];
   };
   generate: { args: { kind: string; count: number; seed: bigint }; result: Doubles };
   readPoints: { args: { bytes: Uint8Array; extension: string }; result: PointCloud };

@@ -1,14 +1,11 @@
-// Refinement of meshes with constraints: a part of the code that is loaded when it is used.
+// What is checked before a mesh with constraints is refined.
 
-import { moduleEdit } from '#assets';
 import type { RefineOptions } from './answers.js';
 import type { Coordinates, Indices, SignedIndices } from './arrays.js';
-import { Constrained } from './constrained.js';
+import type { Constrained } from './constrained.js';
 import { GdelError } from './errors.js';
-import { bad, checkArrays, checkInteger, optionsOf, taskOptions } from './options.js';
-import type { Done } from './protocol.js';
-import { runShared } from './shared.js';
-import type { Place } from './types.js';
+import { bad, checkArrays, checkInteger, optionsOf } from './options.js';
+import type { Tasks } from './protocol.js';
 
 /** A mesh with constraints. */
 interface Refinable {
@@ -20,18 +17,13 @@ interface Refinable {
   constraints: Constrained | null;
   coords: Coordinates;
   factors: readonly number[] | null;
-  stats: Place;
 }
 
-/** The class of a mesh, which is made of what a run returns and a function that updates it. */
-type Class<M> = new (done: Done<'delaunay2d'>, update: () => Promise<never>) => M;
-
-/** Returns a mesh of a class with points added until its triangles inside are as asked for. */
-export async function refine<M>(
+/** Returns the task to refine a mesh. */
+export function refineArgs(
   mesh: Refinable,
   options: RefineOptions | undefined,
-  Made: Class<M>,
-): Promise<M> {
+): Tasks['refine']['args'] {
   const { minAngle, maxArea, maxPoints, size } = optionsOf(options);
   for (const [name, value] of Object.entries({ minAngle, maxArea }))
     if (value !== undefined && typeof value !== 'number')
@@ -47,23 +39,10 @@ export async function refine<M>(
   const arrays = { triangles, halfedges, hull, duplicateOf, dimension };
   checkArrays({ points, ...arrays, edges, segments, inside });
   const sizes = isList ? Float64Array.from(size as ArrayLike<number>) : undefined;
-  const wanted = { minAngle, maxArea, maxPoints, size: isList ? undefined : size, sizes };
-  const args = {
+  return {
     points,
     mesh: { ...arrays, constraints: { edges, segments, inside } },
-    options: wanted,
+    options: { minAngle, maxArea, maxPoints, size: isList ? undefined : size, sizes },
+    before: { added, moved, zeroLength },
   };
-  const result = await runShared(moduleEdit, 'refine', args, taskOptions(optionsOf(options)));
-  const made = result.constraints!;
-  // Points at crossings were added before.
-  const all = { ...made, added: made.added + added, moved, zeroLength };
-  const { thread, whyThread, whyInlined } = mesh.stats;
-  return new Made(
-    {
-      result: { ...result, constraints: new Constrained(all, result.duplicateOf) },
-      place: { thread, whyThread, whyInlined },
-    },
-    // Meshes with constraints are not updated.
-    () => Promise.reject(new GdelError('BAD_INPUT', 'meshes with constraints cannot be changed')),
-  );
 }

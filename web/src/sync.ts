@@ -1,49 +1,30 @@
 // Triangulations in the calling thread, done when the function returns.
 
-import {
-  code2d,
-  code3d,
-  codeEdit,
-  codeTransport,
-  moduleTransport,
-  wasm2d,
-  wasm3d,
-  wasmEdit,
-  wasmTransport,
-} from '#assets';
+import { code2d, code3d, codeEdit, wasm2d, wasm3d, wasmEdit } from '#assets';
 import type { Coordinates } from './arrays.js';
 import type { createBlocking as createBlocking2d } from './core-2d.js';
 import type { createBlocking as createBlocking3d } from './core-3d.js';
 import type { createBlocking as createConstraining } from './core-edit.js';
-import type { createBlocking as createPower } from './core-transport.js';
 import { GdelError, thrown } from './errors.js';
 import { coordinatesOf } from './given.js';
 import { Mesh3 } from './mesh.js';
 import { Mesh2 } from './mesh2.js';
 import { compiled } from './modules.js';
 import { hasConstraints, optionsOf, outputsOf } from './options.js';
-import type { PowerTask, Tasks } from './protocol.js';
+import type { Tasks } from './protocol.js';
 import { IN_2D, IN_3D, sharedMaker, updating } from './run.js';
 import { loadCode, type WasmAsset } from './runtime.js';
-import { runShared } from './shared.js';
-import type {
-  AccessorOptions,
-  ConstraintOptions,
-  Place,
-  Points,
-  SyncOptions,
-  TaskOptions,
-} from './types.js';
+import type { AccessorOptions, ConstraintOptions, Place, Points, SyncOptions } from './types.js';
 
 /** Something that is loaded once, for functions that cannot wait for it. */
-interface Loadable<T> {
+export interface Loadable<T> {
   readonly start: () => Promise<T>;
   loading?: Promise<void>;
   value?: T;
 }
 
 /** Loads something, unless it is or is being loaded. */
-function load<T>(it: Loadable<T>): Promise<void> {
+export function load<T>(it: Loadable<T>): Promise<void> {
   it.loading ??= it.start().then(
     (value) => {
       it.value = value;
@@ -56,14 +37,14 @@ function load<T>(it: Loadable<T>): Promise<void> {
   return it.loading;
 }
 
-function loaded<T>({ value }: Loadable<T>, loader: string): T {
+export function loaded<T>({ value }: Loadable<T>, loader: string): T {
   if (value) return value;
   const message = `the WebAssembly module is not loaded yet: await ${loader}() first`;
   throw new GdelError('NOT_LOADED', message);
 }
 
 /** What runs in the calling thread, and where that came from. */
-interface Blocking<F> {
+export interface Blocking<F> {
   triangulate: F;
   place: Place;
 }
@@ -73,7 +54,7 @@ interface BlockingCode<F> {
   createBlocking(module: WebAssembly.Module): F;
 }
 
-async function blocking<F>(
+export async function blocking<F>(
   asset: WasmAsset,
   code: () => Promise<BlockingCode<F>>,
 ): Promise<Blocking<F>> {
@@ -96,10 +77,6 @@ const loadable2d: Loadable<Blocking<ReturnType<typeof createBlocking2d>>> = {
 
 const loadableConstraints: Loadable<Blocking<ReturnType<typeof createConstraining>>> = {
   start: () => blocking(wasmEdit, codeEdit),
-};
-
-const loadablePower: Loadable<Blocking<ReturnType<typeof createPower>>> = {
-  start: () => blocking(wasmTransport, codeTransport),
 };
 
 /** Loads what {@link delaunay3dSync} needs. Later calls do nothing. */
@@ -170,36 +147,4 @@ export function triangulate2dNow(
 ): Omit<Tasks['delaunay2d']['result'], 'points' | 'stats'> {
   const { triangulate } = loaded(loadable2d, 'Delaunator.load');
   return thrown(() => triangulate.arrays(coordinates));
-}
-
-/**
- * Loads what {@link powerNow} needs. Later calls do nothing.
- *
- * @internal
- */
-export function loadPower(): Promise<void> {
-  return load(loadablePower);
-}
-
-/**
- * Does a task with cells in the plane in the calling thread.
- *
- * @internal
- */
-export function powerNow<T extends PowerTask>(task: T, args: Tasks[T]['args']): Tasks[T]['result'] {
-  const { triangulate } = loaded(loadablePower, 'load');
-  return thrown(() => triangulate(task, args));
-}
-
-/**
- * Does the same in a worker.
- *
- * @internal
- */
-export function runPower<T extends PowerTask>(
-  task: T,
-  args: Tasks[T]['args'],
-  options: TaskOptions,
-): Promise<Tasks[T]['result']> {
-  return runShared(moduleTransport, task, args, options);
 }

@@ -1,7 +1,7 @@
-//! Sites for which the weights of given areas are nearly equal: where treemaps begin.
+//! Sites from which the weights of given areas are found in few steps: where treemaps begin.
 //!
-//! A convex polygon is halved by mass again and again, until each part has one mass. The parts have the right areas, so
-//! that the Voronoi cells of their centres have nearly the right ones. Neighbours in the list become neighbours in the
+//! A convex polygon is halved by mass again and again, until each part has one mass. The parts have the right areas, and
+//! the Voronoi cells of their centres come nearer to these than equal ones. Neighbours in the list become neighbours in the
 //! plane, and little changes where masses change little. Cuts are turned a little, since straight ones would make
 //! grids.
 

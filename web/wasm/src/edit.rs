@@ -174,7 +174,7 @@ pub fn refine(points: JsValue, mesh: &JsValue, options: &JsValue) -> Result<JsVa
         ("limited", stats.limited.into()),
     ]);
     set(&constraints, "refinement", refinement);
-    set(&constraints, "segmentOf", Int32Array::new_from_slice(bytemuck::cast_slice(&refined.segment_of)).into());
+    set(&constraints, "segmentOf", Int32Array::new_from_slice(bytemuck::cast_slice(&refined.segment_of)));
     Ok(mesh)
 }
 
