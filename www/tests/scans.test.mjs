@@ -99,11 +99,11 @@ describe('a scan', () => {
   test('from a tripod without far points is a street with walls, open above', async () => {
     const street = terrestrial().filter((p) => Math.hypot(...p) < 100);
     await drop(page, 'street.xyz', xyz(street));
-    // Where the walls end, points are so far from each other that some count as stray: of 15,417 at most 0.5 %.
+    // Where the walls end, points are so far from each other that some count as stray: of 15,417 at most 1 %.
     const line = await text(page, 'surface-text');
     assert.match(line, /^Open surface: area [\d,]+ file units²\. \d+ stray points left out\.$/);
     const [area, strays] = numbers(line);
-    assert.ok(area > 3400 && area < 4500 && strays < 78, line);
+    assert.ok(area > 3400 && area < 3800 && strays < 155, line);
     await pictureOf(page, 'scan-street');
     await expectAccessible(page, 'street');
   });

@@ -11,11 +11,9 @@ pub(super) fn finish(improver: &Improver<'_>, given: &Constrained2, points: usiz
     places.resize(mesh.points.len(), NONE);
     mesh.triangles.iter().flat_map(|t| t.vertices).filter(|&v| v != NONE).for_each(|v| places[v as usize] = v);
     let mut found = given.clone();
-    for v in points..mesh.points.len() {
-        if places[v] != NONE {
-            places[v] = (points + found.added.len() - given.added.len()) as u32;
-            found.added.push(mesh.points[v]);
-        }
+    for (place, &point) in places.iter_mut().zip(&mesh.points).skip(points).filter(|(place, _)| **place != NONE) {
+        *place = (points + found.added.len() - given.added.len()) as u32;
+        found.added.push(point);
     }
     let kept: Vec<usize> = (0..mesh.triangles.len()).filter(|&t| mesh.triangles[t].vertices[0] != NONE).collect();
     let mut slots = vec![NONE; mesh.triangles.len()];

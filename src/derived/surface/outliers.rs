@@ -18,7 +18,7 @@ const NEIGHBORS: usize = 6;
 const FACTOR: f64 = 4.0;
 
 /// So many of the nearest points show whether they lie on a surface.
-const SURROUNDING: usize = 12;
+const SURROUNDING: usize = 32;
 
 /// So many of those have to be as far from each other as the point is from them.
 const MIN_ALIKE: usize = SURROUNDING / 2;
