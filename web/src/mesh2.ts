@@ -173,7 +173,9 @@ export class Mesh2 extends Mesh {
     const { thread, whyThread, whyInlined } = this.stats;
     const place = { thread, whyThread, whyInlined };
     // Meshes with constraints are not updated.
-    return new Mesh2({ result, place }, async () => checkUnconstrained(this) as never);
+    // A class that names itself loses its name when it is bundled.
+    const Same = this.constructor as typeof Mesh2;
+    return new Same({ result, place }, async () => checkUnconstrained(this) as never);
   }
 
   /** Returns the points that point `i` has an edge to; none for a duplicate. */

@@ -58,7 +58,7 @@ fn wrong_options() {
     fs::write(path.join("shape.poly"), SHAPE).unwrap();
     fs::write(path.join("points.csv"), "0,0\n1,0\n0,1\n").unwrap();
     let wrong = |options: &[&str], what: &str| {
-        fails_with(gdel(path, &[&["triangulate", "shape.poly"], options].concat()), what)
+        fails_with(gdel(path, &[&["triangulate", "shape.poly"], options].concat()), what);
     };
     wrong(&["--min-angle", "40"], "the smallest angle must be a number of degrees from 0 to 34");
     wrong(&["--max-area", "0"], "the largest area must be a positive number");
