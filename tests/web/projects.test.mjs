@@ -281,14 +281,16 @@ test('every file that the package names is in it', () => {
     'package.json',
   ]);
   const files = readdirSync(folder);
-  const ofModules = ['3d', '2d', 'edit', 'tools', 'derived', 'surface', 'transport'].flatMap((module) => [
-    `gdel-${module}.wasm`,
-    `core-${module}.js`,
-    `core-${module}.cjs`,
-    `worker-${module}.js`,
-    `inline-${module}.js`,
-    `inline-worker-${module}.js`,
-  ]);
+  const ofModules = ['3d', '2d', 'edit', 'tools', 'derived', 'surface', 'transport'].flatMap(
+    (module) => [
+      `gdel-${module}.wasm`,
+      `core-${module}.js`,
+      `core-${module}.cjs`,
+      `worker-${module}.js`,
+      `inline-${module}.js`,
+      `inline-worker-${module}.js`,
+    ],
+  );
   for (const file of [
     ...ofModules,
     'index.js',
