@@ -18,12 +18,12 @@ impl DisjointSets {
         DisjointSets { parent: (0..count as u32).collect() }
     }
 
-    /// Creates the sets of numbers that are united with lower ones: `lower` returns those of a number. Numbers that
-    /// are near each other should be united as a rule.
+    /// Creates the sets in which each number is united with those that `lower` returns for it, which have to be below it.
+    /// Threads share this work as far as the two numbers are near each other.
     pub fn of_lower<L: Iterator<Item = u32>>(threads: Threads, count: usize, lower: impl Fn(u32) -> L + Sync) -> Self {
         let mut sets = DisjointSets::new(count);
         let mut chunks: Vec<&mut [u32]> = sets.parent.chunks_mut(GRAIN).collect();
-        // Each range by itself first; and what leads to others.
+        // First each range by itself, with a list of the pairs that lead out of it.
         let leading = parallel::map_mut(threads, &mut chunks, |i, chunk| {
             let start = (i * GRAIN) as u32;
             let mut within = DisjointSets { parent: (0..chunk.len() as u32).collect() };

@@ -88,6 +88,12 @@ pub(crate) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
+/// Returns the determinant of two vectors in the plane: twice the area between them, positive if b is to the left of a.
+#[inline(always)]
+pub(crate) fn cross2d(a: [f64; 2], b: [f64; 2]) -> f64 {
+    a[0] * b[1] - a[1] * b[0]
+}
+
 /// Returns a power of two that makes the largest extent of a box neither large nor small: 1 unless
 /// it is.
 pub(crate) fn scale_of<const D: usize>([low, high]: [[f64; D]; 2]) -> f64 {

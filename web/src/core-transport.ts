@@ -6,7 +6,6 @@ import { blockingInstance } from './blocking.js';
 import { type Core, coreOf, type ReportProgress, reporting } from './core.js';
 import { instantiate } from './instance.js';
 import { layOut, type PowerCells, type Solver } from './nested.js';
-import { bad, checkBoolean } from './options.js';
 import type { PowerTask, Tasks } from './protocol.js';
 
 type Glue = ReturnType<typeof makeGlue>;
@@ -48,20 +47,12 @@ export function createBlocking(module: WebAssembly.Module) {
     });
 }
 
-/** Checks the options of `transport` that are numbers or switches. */
-function checkTransport({ normalize, tolerance }: Tasks['transport']['args']['options']): void {
-  checkBoolean('normalize', normalize);
-  if (!(typeof tolerance === 'number' && tolerance > 0 && tolerance < 1))
-    throw bad('the option tolerance', 'a number between 0 and 1', tolerance);
-}
-
 export function openCore(module: WebAssembly.Module): Core {
   const { glue, memory } = instantiate(makeGlue, module);
   return coreOf({
     memory,
     handlers: {
       async transport({ dimension, points, clip, bounds, masses, options }, control) {
-        checkTransport(options);
         control.onBlocking();
         const report = reporting(control);
         return glue.transport(dimension, points, clip, bounds, masses, options, report);

@@ -253,7 +253,9 @@ export async function transport(
   options: TransportOptions | undefined,
 ): Promise<Transport> {
   const { clip = 'box', masses, normalize = false, tolerance = 1e-3 } = optionsOf(options);
-  // The module checks the others.
+  checkBoolean('normalize', normalize);
+  if (!(typeof tolerance === 'number' && tolerance > 0 && tolerance < 1))
+    throw bad('the option tolerance', 'a number between 0 and 1', tolerance);
   checkAllUsed(source);
   const task = taskOptions(optionsOf(options));
   const { dimension, points } = source;

@@ -172,9 +172,9 @@ export class Mesh2 extends Mesh {
     const result = withConstraints(await runShared(moduleEdit, 'refine', args, task));
     const { thread, whyThread, whyInlined } = this.stats;
     const place = { thread, whyThread, whyInlined };
-    // Meshes with constraints are not updated.
     // A class that names itself loses its name when it is bundled.
     const Same = this.constructor as typeof Mesh2;
+    // The new mesh has constraints, too, and so is never updated.
     return new Same({ result, place }, async () => checkUnconstrained(this) as never);
   }
 

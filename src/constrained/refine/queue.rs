@@ -8,7 +8,7 @@ const KEYS: usize = 1 << 12;
 /// A triangle that was bad, and its vertices: it is still there if it has these.
 pub(super) type Entry = (u32, [u32; 3]);
 
-/// Entries in the order of their keys; where these are equal, in that in which they came.
+/// Entries in the order of their keys. Those with equal keys leave in the order in which they came.
 pub(super) struct Queue {
     of_key: Vec<VecDeque<Entry>>,
     /// No key below this has entries.

@@ -4,6 +4,7 @@
 //! Coordinates are multiplied by a power of two, so that squares neither overflow nor vanish.
 
 use super::{RefineOptions, Size};
+use crate::geometry::vector::{cross2d, dot, minus};
 
 /// An edge is refined no further if it is shorter than this many units in the last place of its coordinates.
 const FINEST: f64 = 64.0;
@@ -16,18 +17,6 @@ const LEAST_ANGLE: f64 = 20.0;
 const OFF_CENTER: f64 = 0.95;
 
 type Point = [f64; 2];
-
-fn minus(a: Point, b: Point) -> Point {
-    [a[0] - b[0], a[1] - b[1]]
-}
-
-fn dot(a: Point, b: Point) -> f64 {
-    a[0] * b[0] + a[1] * b[1]
-}
-
-fn cross(a: Point, b: Point) -> f64 {
-    a[0] * b[1] - a[1] * b[0]
-}
 
 /// What is measured of a triangle.
 pub(super) struct Measures {
@@ -89,7 +78,7 @@ impl<'a> Shape<'a> {
     /// Returns twice the area of a triangle, scaled.
     pub(super) fn double_area(&self, corners: [Point; 3]) -> f64 {
         let [a, b, c] = corners.map(|p| self.scaled(p));
-        cross(minus(b, a), minus(c, a))
+        cross2d(minus(b, a), minus(c, a))
     }
 
     pub(super) fn measure(&self, corners: [Point; 3]) -> Measures {
@@ -99,7 +88,7 @@ impl<'a> Shape<'a> {
         let [s, t, u] = squares;
         let shortest = if s <= t && s <= u { 0 } else { if t <= u { 1 } else { 2 } };
         let (after, before) = ((shortest + 1) % 3, (shortest + 2) % 3);
-        let double_area = cross(edges[after], edges[before]);
+        let double_area = cross2d(edges[after], edges[before]);
         let sine = double_area / squares[after] * (double_area / squares[before]);
         Measures { shortest, squares, sine, double_area }
     }
@@ -176,7 +165,7 @@ impl<'a> Shape<'a> {
         let (pa, pb) = (minus(a, p), minus(b, p));
         let (along, ab) = (dot(pa, pb), minus(b, a));
         let is_near = along < 0.0 && along / dot(pa, pa) * (along / dot(pb, pb)) >= self.lens;
-        is_near && cross(pa, ab).abs() > least * dot(ab, ab).sqrt()
+        is_near && cross2d(pa, ab).abs() > least * dot(ab, ab).sqrt()
     }
 
     /// Returns whether a point is inside the circle with a segment as diameter.
@@ -190,7 +179,7 @@ impl<'a> Shape<'a> {
         let [apex, a, b] = [apex, a, b].map(|p| self.scaled(p));
         let (a, b) = (minus(a, apex), minus(b, apex));
         let along = dot(a, b);
-        along > 0.0 && cross(a, b) > 0.0 && along / dot(a, a) * (along / dot(b, b)) > 0.25
+        along > 0.0 && cross2d(a, b) > 0.0 && along / dot(a, a) * (along / dot(b, b)) > 0.25
     }
 
     /// Returns the middle of a piece.

@@ -70,11 +70,9 @@ impl Gaps {
     {
         let facets = &boundary.facets;
         let corners = |facet: &[u32; D]| facet.map(|v| vertices[v as usize]);
-        let measured = parallel::map_ranges(Threads::All, facets.len(), |range| {
-            let corners = facets[range].iter().map(corners);
-            corners.map(|corners| (longest(&corners), area(&corners))).collect::<Vec<(f64, f64)>>()
-        });
-        let (mut lengths, areas): (Vec<f64>, Vec<f64>) = measured.into_iter().flatten().unzip();
+        let mut lengths: Vec<f64> = parallel::joined(parallel::map_ranges(Threads::All, facets.len(), |range| {
+            facets[range].iter().map(|facet| longest(&corners(facet))).collect()
+        }));
         let usual = median(&mut lengths.clone()).unwrap_or(0.0);
         // Most surfaces are closed, and have hardly a facet to look at.
         lengths.iter_mut().filter(|length| **length <= LEAST_FACTOR * usual).for_each(|length| *length = 0.0);
@@ -92,10 +90,12 @@ impl Gaps {
                 length > FACTOR * spacing && length > 0.0 || !unseen.facets.is_empty() && is_unseen()
             })
             .collect();
-        let gaps: f64 = areas.iter().zip(&is_gap).filter(|&(_, &is_gap)| is_gap).map(|(area, _)| area).sum();
-        let open = unseen.hidden + gaps;
-        let is_open = open > 0.0 && open >= OPEN_SHARE * (unseen.hidden + areas.iter().sum::<f64>());
-        Gaps { is_gap, is_open }
+        let sum = |of: &dyn Fn(usize) -> bool| {
+            let areas = (0..).zip(facets).filter(|&(f, _)| of(f)).map(|(_, facet)| area(&corners(facet)));
+            areas.fold(0.0, |sum, area| sum + area)
+        };
+        let open = unseen.hidden + sum(&|f| is_gap[f]);
+        Gaps { is_gap, is_open: open > 0.0 && open >= OPEN_SHARE * (unseen.hidden + sum(&|_| true)) }
     }
 }
 

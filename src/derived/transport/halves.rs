@@ -5,7 +5,7 @@
 //! plane, and little changes where masses change little. Cuts are turned a little, since straight ones would make
 //! grids.
 
-use crate::geometry::vector::{minus, plus, times};
+use crate::geometry::vector::{cross2d, dot, minus, plus, times};
 
 /// How far a cut may be turned: the tangent of the angle.
 const TURN: f64 = 0.6;
@@ -49,14 +49,6 @@ pub fn sites_by_halves(corners: &[[f64; 2]], masses: &[f64]) -> Vec<[f64; 2]> {
     sites
 }
 
-fn cross([ax, ay]: [f64; 2], [bx, by]: [f64; 2]) -> f64 {
-    ax * by - ay * bx
-}
-
-fn dot([ax, ay]: [f64; 2], [bx, by]: [f64; 2]) -> f64 {
-    ax * bx + ay * by
-}
-
 /// The sides of a polygon.
 fn sides(corners: &[[f64; 2]]) -> impl Iterator<Item = ([f64; 2], [f64; 2])> {
     corners.iter().zip(corners.iter().cycle().skip(1)).map(|(&a, &b)| (a, b))
@@ -69,8 +61,8 @@ fn centroid(corners: &[[f64; 2]]) -> [f64; 2] {
     let (mut area, mut moment, mut sum) = (0.0, [0.0; 2], [0.0; 2]);
     for (a, b) in sides(corners) {
         let (a, b) = (minus(a, first), minus(b, first));
-        area += cross(a, b);
-        moment = plus(moment, times(cross(a, b), plus(a, b)));
+        area += cross2d(a, b);
+        moment = plus(moment, times(cross2d(a, b), plus(a, b)));
         sum = plus(sum, a);
     }
     let center = times(1.0 / (3.0 * area), moment);
@@ -143,10 +135,10 @@ fn width_at(corners: &[[f64; 2]], along: [f64; 2], level: f64) -> f64 {
     for (a, b) in sides(corners) {
         let (from, to) = (dot(a, along) - level, dot(b, along) - level);
         if from == 0.0 {
-            add(cross(along, a));
+            add(cross2d(along, a));
         }
         if (from < 0.0 && to > 0.0) || (from > 0.0 && to < 0.0) {
-            add(cross(along, plus(a, times(from / (from - to), minus(b, a)))));
+            add(cross2d(along, plus(a, times(from / (from - to), minus(b, a)))));
         }
     }
     (high - low).max(0.0)

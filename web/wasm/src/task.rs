@@ -68,6 +68,7 @@ pub struct Task<M> {
 }
 
 impl<M> Task<M> {
+    /// Copies points and mesh, and reports that the work begins.
     pub fn new<const D: usize, const N: usize>(
         points: &JsValue,
         mesh: &JsValue,

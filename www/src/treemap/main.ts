@@ -6,7 +6,7 @@ import '../styles/report.css';
 import '../styles/treemap.css';
 import { type Treemap, treemap } from 'gdel-wasm/treemap';
 import { pack, unpack } from '../model/packed';
-import { byId, count, create, duration, radios, things } from '../ui/dom';
+import { byId, count, create, duration, radios, saveFile, things } from '../ui/dom';
 import { wireTheme } from '../ui/theme';
 import { palette } from './colors';
 import { EXAMPLES } from './examples';
@@ -257,12 +257,8 @@ async function take(file: File): Promise<void> {
 }
 
 function save(extension: string, type: string, content: string): void {
-  const link = create('a', {
-    href: URL.createObjectURL(new Blob([content], { type })),
-    download: `${(shown?.title ?? 'treemap').replace(/[^\p{L}\p{N}]+/gu, '-').toLowerCase()}.${extension}`,
-  });
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
+  const stem = (shown?.title ?? 'treemap').replace(/[^\p{L}\p{N}]+/gu, '-').toLowerCase();
+  saveFile(`${stem}.${extension}`, new Blob([content], { type }));
 }
 
 /** A cell of a CSV file, which spreadsheets must not take for a formula. */

@@ -16,6 +16,13 @@ export function create<K extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
+/** Has the browser save a file. */
+export function saveFile(name: string, content: Blob): void {
+  const link = create('a', { href: URL.createObjectURL(content), download: name });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
+}
+
 /** The radio buttons of a name. */
 export function radios(name: string, onChoice: (value: string) => void): HTMLInputElement[] {
   const all = [...document.querySelectorAll<HTMLInputElement>(`input[name=${name}]`)];

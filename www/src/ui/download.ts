@@ -1,7 +1,7 @@
 import type { SavedFile } from '../model/save';
 import type { Page } from '../page';
 import { complaintAbout } from './complaint';
-import { create } from './dom';
+import { saveFile } from './dom';
 import { showMessage } from './message';
 
 /**
@@ -21,12 +21,7 @@ export async function download(
     const { stemOf } = await import('./code');
     const stem = stemOf(page.settings.source);
     for (const { extension, bytes } of files) {
-      const link = create('a', {
-        href: URL.createObjectURL(new Blob([bytes as Uint8Array<ArrayBuffer>])),
-        download: stem + extension,
-      });
-      link.click();
-      setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
+      saveFile(stem + extension, new Blob([bytes as Uint8Array<ArrayBuffer>]));
     }
   } catch (error) {
     showMessage(complaintAbout(format, error));
