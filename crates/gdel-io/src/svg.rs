@@ -20,6 +20,9 @@ use svgtypes::{Length, LengthUnit, PointsParser, SimplePathSegment, SimplifyingP
 /// Curves become lines that are nearer to them than this share of the larger side of the drawing.
 const TOLERANCE: f64 = 1.0 / 5000.0;
 
+/// Points on curves that are nearer to the end than this share of the tolerance are left out.
+const BESIDE: f64 = 1.0 / 1024.0;
+
 /// Elements whose content is not drawn where it is.
 const HIDDEN: [&str; 6] = ["defs", "symbol", "clipPath", "mask", "pattern", "marker"];
 /// Elements that are drawn, but have no outlines here.
@@ -136,16 +139,23 @@ impl Drawing {
         };
         // Not −0.
         let up = |p: Point| [p.x, 0.0 - p.y];
-        kurbo::flatten(self.outlines.iter().copied(), self.tolerance()?, |element| match element {
-            PathEl::MoveTo(p) => {
-                finish(&mut path, false, &mut shapes);
-                path.push(up(p));
+        let tolerance = self.tolerance()?;
+        let mut last = None;
+        for element in &self.outlines {
+            match element {
+                PathEl::MoveTo(p) => {
+                    finish(&mut path, false, &mut shapes);
+                    path.push(up(*p));
+                }
+                PathEl::LineTo(p) => path.push(up(*p)),
+                PathEl::ClosePath => finish(&mut path, true, &mut shapes),
+                PathEl::QuadTo(..) | PathEl::CurveTo(..) => {
+                    let start = last.unwrap_or_default();
+                    flatten(start, *element, tolerance, |p| path.push(up(p)));
+                }
             }
-            PathEl::LineTo(p) => path.push(up(p)),
-            PathEl::ClosePath => finish(&mut path, true, &mut shapes),
-            // There are no curves any more.
-            PathEl::QuadTo(..) | PathEl::CurveTo(..) => {}
-        });
+            last = element.end_point();
+        }
         finish(&mut path, false, &mut shapes);
         if shapes.rings.is_empty() {
             shapes.fill = Fill::All;
@@ -170,6 +180,22 @@ impl Drawing {
             _ => Err(format!("curves in a drawing of size {side:e} cannot be flattened")),
         }
     }
+}
+
+/// Calls `line_to` with the ends of lines that are at most `tolerance` away from a curve.
+///
+/// Rounding has kurbo put a point beside the end of some curves, which would be the corner of a needle. So points that
+/// are much nearer to the end than the tolerance are left out, and kurbo gets what is left of the tolerance.
+fn flatten(start: Point, curve: PathEl, tolerance: f64, mut line_to: impl FnMut(Point)) {
+    let beside = BESIDE * tolerance;
+    let end = curve.end_point().unwrap_or(start);
+    kurbo::flatten([PathEl::MoveTo(start), curve], tolerance - beside, |element| {
+        if let PathEl::LineTo(p) = element
+            && (p == end || p.distance(end) > beside)
+        {
+            line_to(p);
+        }
+    });
 }
 
 /// Returns the points of a path, those that control curves as well.

@@ -125,6 +125,29 @@ fn svg_outlines_that_overlap_become_one() {
     assert_eq!((open.edges.len(), open.rings.len(), mesh(&open).1), (2, 1, 0.0));
 }
 
+/// Rounding had some curves end in two points, one unit in the last place apart.
+#[test]
+fn curves_of_svg_have_no_point_beside_their_end() {
+    let letter = "<svg><path d='M90 0H71V9C63 1 54-2 44-2C18-2 2 18 2 46C2 74 18 94 44 94C54 94 63 90 71 82V92
+        C71 108 60 116 44 116C32 116 24 112 19 104L4 114C12 126 26 132 45 132C73 132 90 116 90 90Z
+        M71 46C71 64 62 77 46 77C30 77 21 64 21 46C21 28 30 15 46 15C62 15 71 28 71 46Z
+        M0 0Q5 9 10 0T20 0'/></svg>";
+    let shapes = read(ShapeFormat::Svg, letter);
+    let lengths = shapes.rings.iter().flat_map(|ring| {
+        let points: Vec<_> = ring.iter().map(|&v| shapes.points[v as usize]).collect();
+        (0..points.len()).map(move |i| {
+            let [p, q] = [points[i], points[(i + 1) % points.len()]];
+            (p[0] - q[0]).hypot(p[1] - q[1])
+        })
+    });
+    let shortest = lengths.fold(f64::INFINITY, f64::min);
+    assert!(shortest > 0.5, "{shortest}");
+    for end in [[44.0, 2.0], [21.0, -46.0], [10.0, 0.0], [20.0, 0.0]] {
+        assert!(shapes.points.contains(&end), "{end:?}");
+    }
+    mesh(&shapes);
+}
+
 #[test]
 fn bad_svg_says_where() {
     let error = |text: &str| error(ShapeFormat::Svg, text);
