@@ -5,7 +5,7 @@ import { connect } from './model/client';
 import type { Edit } from './model/edits';
 import type { Drawing, Summary } from './model/model';
 import type { Found } from './model/scanned';
-import { filterFor, type Source, titleOf } from './model/source';
+import { filterFor, isShapes, type Source, titleOf } from './model/source';
 import type { Progress } from './model/worker';
 import type { Page, Part } from './page';
 import {
@@ -32,6 +32,7 @@ import { wireDrop } from './ui/drop';
 import { editor } from './ui/editor';
 import { firstVisit } from './ui/firstVisit';
 import { wireKeyboard } from './ui/keyboard';
+import { polygons, weights } from './ui/lazy';
 import { showLegend } from './ui/legend';
 import { live } from './ui/live';
 import { showMessage, wireMessage } from './ui/message';
@@ -50,7 +51,6 @@ import { wireTabs } from './ui/tabs';
 import { paint, wireTheme } from './ui/theme';
 import { usePanel } from './ui/usePanel';
 import { viewPanel } from './ui/viewPanel';
-import { weights } from './ui/weights';
 import type { Viewer } from './view/viewer';
 
 /**
@@ -113,6 +113,7 @@ export class App implements Page {
       notes(this),
       surfaceLine(this),
       weights(this),
+      polygons(this),
       scaleBar(this),
       axes(this),
       ruler(this),
@@ -169,6 +170,10 @@ export class App implements Page {
       if (this.awaited.asked.bare) source.bare = true;
       settings = { ...this.awaited.settings, source, ...settings };
     }
+    const { dimension } = source;
+    // Shapes are in 2D, wherever they are dropped.
+    if (dimension !== this.settings.source.dimension)
+      settings = { layers: defaults(dimension).layers, ...settings };
     const {
       edits = [],
       backend = this.settings.backend,
@@ -186,7 +191,8 @@ export class App implements Page {
     if (dimension === settings.source.dimension) return;
     const to = left?.source.dimension === dimension ? left : defaults(dimension);
     // A scan can be looked at in both.
-    if (settings.source.kind === 'file' || settings.source.kind === 'url') {
+    const { kind } = settings.source;
+    if ((kind === 'file' || kind === 'url') && !isShapes(titleOf(settings.source))) {
       const source: Source = { ...settings.source, dimension };
       Object.assign(to, {
         source,

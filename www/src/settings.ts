@@ -9,6 +9,8 @@ import {
   DISTRIBUTIONS,
   type Distribution,
   filterFor,
+  isShapes,
+  nameIn,
   SAMPLES,
   type Sample,
   type Source,
@@ -30,7 +32,7 @@ export type Layer = (typeof LAYERS)[number];
 
 /** What a click does to 2D points. */
 export const TOOLS = ['move', 'add', 'remove'] as const;
-export type Tool = (typeof TOOLS)[number] | 'weigh';
+export type Tool = (typeof TOOLS)[number] | 'weigh' | 'draw';
 
 /**
  * Everything that makes up a view, and so a link. Null stands for what suits the points: a new
@@ -83,11 +85,11 @@ export const FRESH = {
 } as const;
 
 /**
- * What tells most: inside a scan sizes differ by orders of magnitude, in a synthetic cloud shapes
- * do.
+ * What tells most: inside a scan sizes differ by orders of magnitude, in a synthetic cloud and in
+ * polygons shapes do.
  */
 export function colorFor(source: Source): ColorBy {
-  return source.kind === 'generator' ? 'quality' : 'circumradius';
+  return source.kind === 'generator' || isShapes(titleOf(source)) ? 'quality' : 'circumradius';
 }
 
 /** How the points are looked at and cut: what was chosen, else what suits them. */
@@ -147,7 +149,7 @@ export function toHash(settings: Settings): string {
   if (settings.embed) hash.set('embed', '1');
   if (source.kind === 'generator')
     hash.set('points', [source.distribution, source.count, source.seed].join('_'));
-  if (source.kind === 'generator' && edits.length > 0) hash.set('edits', editsToText(edits));
+  if (edits.length > 0) hash.set('edits', editsToText(edits));
   if (settings.weights) hash.set('weights', `${settings.weights.scale}_${settings.weights.by}`);
   start.filter = filterFor(source);
   start.color = colorFor(source);
@@ -172,12 +174,12 @@ export function toHash(settings: Settings): string {
  */
 export function fromHash(hash: string): Settings {
   const given = new URLSearchParams(hash.replace(/^#/, ''));
-  const dimension = given.get('dim') === '2' ? 2 : 3;
+  const url = addressFrom(given.get('url'));
+  const dimension = given.get('dim') === '2' || (url && isShapes(nameIn(url))) ? 2 : 3;
   const settings = defaults(dimension);
   const choice = <T extends string>(key: string, of: readonly T[], otherwise: T) =>
     of.find((option) => option === given.get(key)) ?? otherwise;
 
-  const url = addressFrom(given.get('url'));
   settings.source = url
     ? { kind: 'url', dimension, url, ...bareIn(given) }
     : (sourceFrom(given.get('points'), dimension) ?? settings.source);

@@ -12,6 +12,7 @@ import type { Up } from '../geometry/up';
 import type { Voronoi } from '../geometry/voronoi';
 import type { CameraPose } from '../view/viewer';
 import type { About } from './about';
+import type { Constrained } from './shapes';
 
 /** At most so many tetrahedra are drawn one by one when they are pulled apart. */
 export const MAX_PIECES = 300_000;
@@ -35,6 +36,8 @@ export interface Summary {
   /** The dimension of the points' affine hull. If it is smaller, there are no simplices. */
   affineDimension: number;
   points: number;
+  /** How many of them were given, where others were added to a mesh of polygons. */
+  given?: number;
   duplicates: number;
   /** How many points the file has besides, which hold no measurement. */
   noReturn: number;
@@ -151,6 +154,8 @@ export interface Model {
   pick(ray: Ray, apart: number): Picked | null;
   /** The corners of the hull's facets as drawn, three coordinates each. */
   hull(): Float32Array;
+  /** What became of polygons and lines, if there are some. */
+  constrained?(): Constrained;
   /** The surface of the last drawing, also where the GPU finds it by itself. */
   drawnSurface?(): Surface | null;
   /**

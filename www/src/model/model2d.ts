@@ -36,8 +36,10 @@ export class Model2d implements Model {
   private drawing: Drawing | null = null;
   /** Finds the diagram, with weights another one. */
   private edges = voronoiEdges;
+  /** One per triangle: 0 where it is outside the polygons. Null where all are inside. */
+  protected inside: Uint8Array | null = null;
 
-  private constructor(
+  protected constructor(
     readonly points: Float32Array | Float64Array,
     readonly mesh: Mesh2,
     readonly frame: Frame,
@@ -106,8 +108,10 @@ export class Model2d implements Model {
     const alpha = this.alphas.of(filter);
     const kept = new Uint8Array(circumradius.length);
     const all = new Uint32Array(circumradius.length);
-    let count = 0;
+    let [count, total] = [0, 0];
     for (let t = 0; t < kept.length; t++) {
+      if (this.inside?.[t] === 0) continue;
+      total++;
       if (alpha && circumradius[t] > alpha.value) continue;
       kept[t] = 1;
       all[count++] = t;
@@ -126,7 +130,7 @@ export class Model2d implements Model {
         : null,
       scale,
       shown: count,
-      total: kept.length,
+      total,
       leftOut: Math.max(0, count - MAX_FACETS),
       keep: 1,
       half: 1,

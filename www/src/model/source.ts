@@ -1,4 +1,4 @@
-import { generate, generate2d, readPoints } from 'gdel-wasm';
+import { generate, generate2d, readPoints, type Shapes } from 'gdel-wasm';
 import bunny from '../../samples/bunny.f32.gz?url';
 import dragon from '../../samples/dragon.f32.gz?url';
 import type { Dimension } from '../geometry/dimension';
@@ -6,7 +6,7 @@ import { MANY_CORNERS, pointsOnFaces } from '../geometry/faces';
 import type { FilterKind } from '../geometry/filter';
 import { type About, NOTHING_ABOUT } from './about';
 import { facesOf } from './faceFiles';
-import { landColors, OBJECTS } from './objects';
+import type { FileShapes } from './shapes';
 
 /**
  * The synthetic distributions: in 3D those of section 5.1 of the paper, in 2D those of 5.6 and some
@@ -59,7 +59,11 @@ type Generator<D extends Dimension> = {
 };
 
 /** The formats of files that can be read, for people. */
-export const EXTENSIONS = 'PLY, OBJ, STL, GLB, XYZ, TXT, CSV, PTS, PCD, LAS, LAZ, NPY, E57';
+export const EXTENSIONS =
+  'PLY, OBJ, STL, GLB, XYZ, TXT, CSV, PTS, PCD, LAS, LAZ, NPY, E57; in 2D GeoJSON, SVG and POLY';
+
+/** Whether a file of this name has shapes, which are in a plane. */
+export const isShapes = (name: string): boolean => /\.((geo)?json|svg|poly)(\.gz)?$/i.test(name);
 
 /**
  * Where points come from. In 2D, the z of a file is ignored. Of a coarse model, points on its faces
@@ -83,7 +87,11 @@ export type Source =
 
 /** The source of files that were opened together. */
 export function filesSource(files: readonly File[], dimension: Dimension): Source {
-  return { kind: 'file', dimension, files };
+  return {
+    kind: 'file',
+    dimension: files.some(({ name }) => isShapes(name)) ? 2 : dimension,
+    files,
+  };
 }
 
 /** What to call a source. */
@@ -115,7 +123,7 @@ export interface LoadOptions {
 export async function load(
   source: Source,
   options: LoadOptions,
-): Promise<{ points: Float32Array | Float64Array; about: About }> {
+): Promise<{ points: Float32Array | Float64Array; about: About; shapes?: FileShapes }> {
   if (source.kind === 'generator') {
     const { count, seed } = source;
     options.onProgress({ phase: 'Generating points', fraction: 0 });
@@ -132,6 +140,7 @@ export async function load(
       return { points: await fetchSample(sample, options.signal), about };
     }
     options.onProgress({ phase: 'Generating points', fraction: 0 });
+    const { landColors, OBJECTS } = await import('./objects');
     const points = OBJECTS[sample]();
     if (sample === 'terrain') about.colors = { rgb: landColors(points), source: 'rgb' };
     return { points, about };
@@ -154,8 +163,10 @@ export async function load(
   }
   const all = joined(parts.map((part) => part.points));
   const { points, heights } = source.dimension === 3 ? { points: all, heights: null } : split(all);
+  const hasShapes = source.dimension === 2 && parts.some((part) => part.shapes);
   return {
     points,
+    ...(hasShapes && { shapes: (await import('./shapes')).together(parts) }),
     about: {
       heights,
       noReturn: parts.reduce((sum, part) => sum + part.about.noReturn, 0),
@@ -173,6 +184,8 @@ export async function load(
 interface Read {
   points: Float32Array | Float64Array;
   about: About;
+  /** Polygons and lines through the points, if the file has some. */
+  shapes?: Shapes;
   /** The corners of the triangles that the points belong to, nine coordinates each; null without. */
   faces(): Promise<Float64Array | null> | Float64Array | null;
 }
@@ -190,6 +203,14 @@ async function read(
     // That y is up, the format says.
     const about: About = { ...NOTHING_ABOUT, colors: colors && { rgb: colors, source: 'rgb' } };
     return { points, about, faces };
+  }
+  if (isShapes(name)) {
+    const { readInSpace } = await import('./shapes');
+    return {
+      ...(await readInSpace(content, name, signal)),
+      about: NOTHING_ABOUT,
+      faces: () => null,
+    };
   }
   const { points, noReturn, colors, colorSource, normals, sensors } = await readPoints(content, {
     name,

@@ -5,7 +5,8 @@ import type { Frame } from '../geometry/mesh';
 import type { Triangulation } from '../geometry/triangles';
 import type { Box, Voronoi } from '../geometry/voronoi';
 import type { Weighing } from '../settings';
-import { applyEdits, type Edit } from './edits';
+import { addsPoint, applyEdits, type Edit, removedBy } from './edits';
+import { rowsIn, TableError } from './rows';
 import type { Source } from './source';
 
 /** What the page shows of weights. */
@@ -97,10 +98,10 @@ function spacingOf(points: ArrayLike<number>, dimension: number): number {
 export function weightsAfter(first: Float64Array, edits: readonly Edit[]): Float64Array {
   const weights = [...first];
   for (const edit of edits) {
-    if (edit.do === 'add') weights.push(0);
-    else if (edit.point >= weights.length) continue;
-    else if (edit.do === 'weigh') weights[edit.point] = edit.radius ** 2;
-    else if (edit.do === 'remove') weights.splice(edit.point, 1);
+    if (addsPoint(edit)) weights.push(0);
+    else if (edit.do === 'weigh' && edit.point < weights.length)
+      weights[edit.point] = edit.radius ** 2;
+    for (const point of removedBy(edit)) if (point < weights.length) weights.splice(point, 1);
   }
   return Float64Array.from(weights);
 }
@@ -126,33 +127,46 @@ async function readColumns(source: Source): Promise<Column[]> {
   if (source.kind !== 'file' || source.files.length !== 1) return [];
   const [file] = source.files;
   if (!/\.(csv|txt|xyz|asc|tsv)$/i.test(file.name) || file.size > LARGEST) return [];
-  return columnsIn(await file.text());
+  try {
+    return columnsIn(await file.text());
+  } catch (error) {
+    // Its points can be read nevertheless.
+    if (error instanceof TableError) return [];
+    throw error;
+  }
 }
+
+/** A remark, or the mark before the names of columns. */
+const REMARK = /^\s*(#|\/\/)\s*/;
 
 /** Returns the columns of a table that are called like radii or weights. */
 export function columnsIn(text: string): Column[] {
   const lines = text
     .replace(/^\uFEFF/, '')
     .split(/\r\n|\r|\n/)
-    .map((line) => line.trim())
-    .filter((line) => line !== '');
-  const fields = (line: string) =>
-    line
-      .replace(/^(#|\/\/)\s*/, '')
-      .split(line.includes(';') ? ';' : line.includes(',') ? ',' : /\s+/)
-      .map((field) => field.trim().replace(/^"(.*)"$/, '$1'));
-  const names = fields(lines[0] ?? '');
-  const rows = lines.slice(1).filter((line) => !/^(#|\/\/)/.test(line));
-  const columns = names.flatMap((name, at): Column[] => {
+    .filter((line) => line.trim() !== '');
+  const header = lines.shift()?.replace(REMARK, '') ?? '';
+  const [names] = rowsIn(header, { blanks: true });
+  const wanted = (names?.cells ?? []).flatMap((name, at) => {
     const isWeight = WEIGHT.test(name);
-    if (!isWeight && !RADIUS.test(name)) return [];
-    const half = /^diameter/i.test(name) ? 0.5 : 1;
-    const values = Float64Array.from(rows, (row) => half * Number(fields(row)[at] || NaN));
-    return values.length > 0 && values.every((x) => Number.isFinite(x) && (isWeight || x >= 0))
-      ? [{ name, isWeight, values }]
+    const share = /^diameter/i.test(name) ? 0.5 : 1;
+    return isWeight || RADIUS.test(name)
+      ? { name, at, isWeight, share, values: [] as number[] }
       : [];
   });
-  return columns;
+  if (wanted.length === 0) return [];
+  const table = [header, ...lines.filter((line) => !REMARK.test(line))].join('\n');
+  let isHeader = true;
+  for (const { cells } of rowsIn(table, { blanks: true })) {
+    if (!isHeader)
+      for (const { at, share, values } of wanted) values.push(share * Number(cells[at] || NaN));
+    isHeader = false;
+  }
+  return wanted.flatMap(({ name, isWeight, values }) =>
+    values.length > 0 && values.every((x) => Number.isFinite(x) && (isWeight || x >= 0))
+      ? { name, isWeight, values: Float64Array.from(values) }
+      : [],
+  );
 }
 
 /**

@@ -3,6 +3,8 @@ import {
   type Backend,
   createTriangulator,
   GdelError,
+  type RunOptions2,
+  type Triangulator,
   type TriangulatorInfo,
   verify,
   verify2d,
@@ -10,18 +12,19 @@ import {
 import type { CutPart } from '../geometry/cut';
 import type { Dimension } from '../geometry/dimension';
 import type { Filter } from '../geometry/filter';
-import { frameOf } from '../geometry/mesh';
+import { type Frame, frameOf } from '../geometry/mesh';
 import type { Ray } from '../geometry/pick';
 import type { Surface } from '../geometry/surface';
 import type { Weighing } from '../settings';
 import { type About, NOTHING_ABOUT } from './about';
-import { applyEdits, colorsAfter, type Edit } from './edits';
+import { applyEdits, colorsAfter, drawPolygons, type Edit } from './edits';
 import { Live, type LiveFrame } from './live';
 import type { Drawing, DrawRequest, Model, Picked, Summary } from './model';
 import { Model2d } from './model2d';
 import { Model3d } from './model3d';
 import { type Format, type PrintFormat, printed, type SavedFile, save } from './save';
 import type { Found } from './scanned';
+import type { Constrained, FileShapes } from './shapes';
 import { Shown } from './shown';
 import { filterFor, load, type Source } from './source';
 import type { Weights } from './weighted';
@@ -41,9 +44,13 @@ export interface Edited {
 interface Start {
   points: Float32Array | Float64Array;
   about: About;
+  shapes?: FileShapes | undefined;
   source: Source | null;
   weights: Weighing | null;
 }
+
+/** What all runs are told. */
+type Options = Pick<RunOptions2, 'backend' | 'signal' | 'onProgress'>;
 
 /** The points and the mesh live in this worker, so that the page never waits for them. */
 class ModelWorker {
@@ -70,20 +77,20 @@ class ModelWorker {
   ): Promise<Summary> {
     return named(async () => {
       const signal = this.begin();
-      const { points, about } = await load(source, { signal, onProgress });
-      const start = { points, about, source, weights };
-      const options = { backend, signal, onProgress, ...(await weighed(start, edits)) };
+      const loaded = await load(source, { signal, onProgress });
+      const { points, about } = loaded;
+      const start = { ...loaded, source, weights };
+      const options = { backend, signal, onProgress };
       const triangulator = await this.triangulator;
       this.model =
         source.dimension === 3
-          ? await Model3d.make(triangulator, points, options, about)
-          : await Model2d.make(
+          ? await Model3d.make(
               triangulator,
-              applyEdits(points, edits),
-              options,
-              edited(about, edits),
-              frameOf(points, 2),
-            );
+              points,
+              { ...options, ...(await weighed(start, edits)) },
+              about,
+            )
+          : await flat(triangulator, start, edits, options, frameOf(points, 2));
       this.start = start;
       // While the page shows the points.
       if (!weights && filterFor(source) === 'surface') void this.findSurface().catch(() => {});
@@ -103,15 +110,9 @@ class ModelWorker {
   /** Triangulates the 2D points with other changes, in the same frame. */
   edit(edits: readonly Edit[], backend: Backend, request: DrawRequest): Promise<Edited> {
     return named(async () => {
-      const signal = this.begin();
-      const options = { backend, signal, ...(await weighed(this.start, edits)) };
-      const model = await Model2d.make(
-        await this.triangulator,
-        applyEdits(this.start.points, edits),
-        options,
-        edited(this.start.about, edits),
-        this.current.frame,
-      );
+      const options = { backend, signal: this.begin() };
+      const { frame } = this.current;
+      const model = await flat(await this.triangulator, this.start, edits, options, frame);
       this.model = model;
       this.shown.mesh(model);
       return {
@@ -228,6 +229,11 @@ class ModelWorker {
     });
   }
 
+  /** What became of polygons and lines; null where there are none. */
+  constrained(): Constrained | null {
+    return (this.model as Model | null)?.constrained?.() ?? null;
+  }
+
   hull(): Float32Array {
     return this.current.hull();
   }
@@ -291,6 +297,24 @@ async function weighed(
 ): Promise<object> {
   if (!weights && !edits.some((edit) => edit.do === 'weigh')) return {};
   return (await import('./weighted')).weighed(points, source!, weights, edits);
+}
+
+/** Returns the model of 2D points after changes by hand. */
+async function flat(
+  triangulator: Triangulator,
+  start: Start,
+  edits: readonly Edit[],
+  options: Options,
+  frame: Frame,
+): Promise<Model2d> {
+  const points = applyEdits(start.points, edits);
+  const about = edited(start.about, edits);
+  if (start.shapes || drawPolygons(edits)) {
+    const { Model2dOfPolygons } = await import('./constrained');
+    return Model2dOfPolygons.from(triangulator, start, edits, options, { points, about, frame });
+  }
+  const all = { ...options, ...(await weighed(start, edits)) };
+  return Model2d.make(triangulator, points, all, about, frame);
 }
 
 /** What is known about points after changes by hand. */

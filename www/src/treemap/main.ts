@@ -6,6 +6,7 @@ import '../styles/report.css';
 import '../styles/treemap.css';
 import { type Treemap, treemap } from 'gdel-wasm/treemap';
 import { pack, unpack } from '../model/packed';
+import { TableError } from '../model/rows';
 import { byId, count, create, duration, radios, saveFile, things } from '../ui/dom';
 import { wireTheme } from '../ui/theme';
 import { palette } from './colors';
@@ -13,7 +14,7 @@ import { EXAMPLES } from './examples';
 import { number, pathOf, percent, type Scene, sceneOf, svgOf, titleOf } from './picture';
 import { outlineOf, type ShapeName } from './shapes';
 import { hashOf, type State, stateFrom } from './state';
-import { type Item, nested, type Roles, readTable, rolesOf, rowsOf, TableError } from './table';
+import { type Item, nested, type Roles, readTable, rolesOf, rowsOf } from './table';
 
 /** How long the way from equal areas to exact ones takes, in milliseconds. */
 const WAY = 1100;

@@ -1,3 +1,5 @@
+import { rowsIn, TableError } from '../model/rows';
+
 /** What a row of a table is for a treemap. */
 export interface Row {
   name: string;
@@ -22,9 +24,6 @@ export interface Roles {
   group: number;
 }
 
-/** What is wrong with a table, for people. */
-export class TableError extends Error {}
-
 /** More cells than this would take a browser too long. */
 const MOST_ROWS = 20_000;
 
@@ -34,11 +33,9 @@ const GROUP = /^(parent|group|category|region|continent|type|sector|class|path)\
 
 /** Reads a table of text: separated by tabs, semicolons or commas, whichever is most frequent in the first line. */
 export function readTable(text: string): Table {
-  const content = text.replace(/^\uFEFF/, '');
-  const [first = ''] = content.split(/\r?\n/, 1);
-  const count = (mark: string) => first.split(mark).length;
-  const mark = ['\t', ';', ','].reduce((best, each) => (count(each) > count(best) ? each : best));
-  const { rows: all, lines } = split(content, mark);
+  const found = [...rowsIn(text)];
+  const all = found.map(({ cells }) => cells);
+  const lines = found.map(({ line }) => line);
   if (all.length === 0) throw new TableError('The file has no rows.');
   if (all.length > MOST_ROWS + 1)
     throw new TableError(
@@ -53,46 +50,6 @@ export function readTable(text: string): Table {
     ? all[0].map((name, i) => name || `Column ${i + 1}`)
     : all[0].map((_, i) => `Column ${i + 1}`);
   return { columns, rows: all.slice(isHeader ? 1 : 0), lines: lines.slice(isHeader ? 1 : 0) };
-}
-
-/** Splits text into rows that are not empty, with quotes as in RFC 4180. */
-function split(text: string, mark: string): { rows: string[][]; lines: number[] } {
-  const rows: string[][] = [];
-  const lines: number[] = [];
-  let row: string[] = [];
-  let cell = '';
-  let [line, begins, quoted] = [1, 1, false];
-  const endCell = () => {
-    row.push(cell.trim());
-    cell = '';
-  };
-  const endRow = () => {
-    endCell();
-    if (row.some((each) => each !== '')) {
-      rows.push(row);
-      lines.push(begins);
-    }
-    row = [];
-  };
-  for (let i = 0; i < text.length; i++) {
-    const letter = text[i];
-    if (letter === '\n') line++;
-    if (quoted) {
-      if (letter !== '"') cell += letter;
-      else if (text[i + 1] === '"') {
-        cell += '"';
-        i++;
-      } else quoted = false;
-    } else if (letter === '"' && cell.trim() === '') [quoted, cell] = [true, ''];
-    else if (letter === mark) endCell();
-    else if (letter === '\n') {
-      endRow();
-      begins = line;
-    } else if (letter !== '\r') cell += letter;
-  }
-  if (quoted) throw new TableError(`Line ${begins}: a quotation mark is opened and never closed.`);
-  endRow();
-  return { rows, lines };
 }
 
 /** The number in a cell: 1234.5, 1,234.5, 1 234,5 or 12 %. NaN where there is none. */

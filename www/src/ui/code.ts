@@ -1,6 +1,7 @@
-import type { Edit } from '../model/edits';
+import { addsPoint, applyEdits, type Edit, removedBy } from '../model/edits';
 import type { Summary } from '../model/model';
-import { isGzipName, nameIn, type Source, titleOf } from '../model/source';
+import { type Constrained, constraintsAfter, MOST_ADDED } from '../model/shapes';
+import { isGzipName, isShapes, nameIn, type Source, titleOf } from '../model/source';
 import type { Settings } from '../settings';
 
 /** Returns the lines that do with the package what the page has just done, on exactly this input. */
@@ -13,7 +14,9 @@ export function codeFor(
     weights = null,
   }: Pick<Settings, 'source' | 'backend' | 'edits' | 'filter'> & Partial<Pick<Settings, 'weights'>>,
   summary: Pick<Summary, 'onFaces'> | null = null,
+  polygons: Polygons | null = null,
 ): string {
+  if (polygons) return codeForPolygons({ source, backend, edits }, polygons);
   const flat = source.dimension === 2;
   const triangulate = flat ? 'delaunay2d' : 'delaunay3d';
   // Those of a column or at random are the page's.
@@ -40,6 +43,115 @@ export function codeFor(
     ``,
     ...(filter === 'surface' ? SURFACE : [`const vtu = await mesh.toVTU();`]),
   ].join('\n');
+}
+
+/** What the page knows about polygons. */
+type Polygons = Pick<Constrained, 'start' | 'rings' | 'fill' | 'meshing' | 'refinement'>;
+
+function codeForPolygons(
+  { source, backend, edits }: Pick<Settings, 'source' | 'backend' | 'edits'>,
+  polygons: Polygons,
+): string {
+  const { fill, meshing, refinement } = polygons;
+  const { uses, lines, points, hasShapes } = pointsAndRings(source, edits, polygons);
+  // What suits needs no words.
+  const isUsual = meshing.fill === 0 && (hasShapes ? fill !== 'all' : fill === 'evenodd');
+  const options = [
+    hasShapes ? '...shapes' : 'rings',
+    ...(hasShapes && lines.some((line) => line.startsWith('const rings')) ? ['rings'] : []),
+    ...(isUsual ? [] : [`fill: '${fill}'`]),
+    ...(meshing.split ? [`crossings: 'split'`] : []),
+    ...(backend === 'auto' ? [] : [`backend: '${backend}'`]),
+  ];
+  const asked = [
+    `minAngle: ${meshing.minAngle}`,
+    ...(meshing.maxArea > 0 ? [`maxArea: ${meshing.maxArea}`] : []),
+    ...(refinement?.limited ? [`maxPoints: ${MOST_ADDED}`] : []),
+  ];
+  const isRefined = meshing.minAngle > 0 || meshing.maxArea > 0;
+  return [
+    `// npm install gdel-wasm`,
+    `import { ${['delaunay2d', ...uses].join(', ')} }`,
+    `  from 'gdel-wasm';`,
+    ``,
+    ...lines,
+    `const ${isRefined ? 'coarse' : 'mesh'} = await delaunay2d(`,
+    `  ${points}, { ${options.join(', ')} });`,
+    ...(isRefined ? [`const mesh = await coarse.refine(`, `  { ${asked.join(', ')} });`] : []),
+    ``,
+    `mesh.coords;            // x, y, x, y, …`,
+    `mesh.insideTriangles(); // 3 points each`,
+    `mesh.constraints.edges; // 2 points each`,
+    ``,
+    `const vtu = await mesh.toVTU();`,
+  ].join('\n');
+}
+
+/** The lines that declare points and `rings`, or read `shapes`. */
+function pointsAndRings(
+  source: Source,
+  edits: readonly Edit[],
+  { start, rings }: Polygons,
+): Lines & { points: string; hasShapes: boolean } {
+  const changed = edits.filter((edit) => !['join', 'close', 'mesh'].includes(edit.do));
+  const hasShapes = namesOf(source).some(isShapes);
+  if (source.kind === 'generator' && source.count === 0) {
+    const drawn = [...applyEdits(new Float64Array(), edits)];
+    const lines = [`const points = [`, ...inRows(drawn, 4), `];`, ...ringLines(rings)];
+    return { uses: [], lines, points: 'points', hasShapes };
+  }
+  const { uses, lines } = hasShapes ? shapesOf(source) : pointsOf(source, false);
+  if (changed.length === 0 && edits.every((edit) => edit.do !== 'join'))
+    return { uses, lines, points: hasShapes ? 'shapes.points' : 'points', hasShapes };
+  if (hasShapes) lines.push(`const { points } = shapes;`);
+  lines.push(...changes(changed, source, false));
+  const isLess = edits.some((edit) => removedBy(edit).length > 0 || edit.do === 'erase');
+  const drawn = constraintsAfter(null, start, edits)?.rings ?? [];
+  if (!hasShapes) lines.push(...ringLines(rings));
+  else if (isLess) lines.push(`// The page removed polygons, too, or parts.`);
+  else if (drawn.length > 0) lines.push(...ringLines(drawn, ['...shapes.rings']));
+  return { uses, lines, points: changedPoints(changed), hasShapes };
+}
+
+const changedPoints = (edits: readonly Edit[]) =>
+  edits.length > 0 ? 'Float64Array.from(changed)' : 'points';
+
+const ringLines = (rings: readonly number[][], before: readonly string[] = []) => [
+  `const rings = [`,
+  ...before.map((line) => `  ${line},`),
+  ...rings.map((ring) => `  [${ring.join(', ')}],`),
+  `];`,
+];
+
+/** Numbers in lines of so many. */
+const inRows = (numbers: readonly number[], each: number): string[] =>
+  Array.from(
+    { length: Math.ceil(numbers.length / each) },
+    (_, i) => `  ${numbers.slice(each * i, each * (i + 1)).join(', ')},`,
+  );
+
+/** The names of the files of a source. */
+const namesOf = (source: Source): string[] =>
+  source.kind === 'file'
+    ? source.files.map(({ name }) => name)
+    : source.kind === 'url'
+      ? [nameIn(source.url)]
+      : [];
+
+/** Reads a file of shapes. */
+function shapesOf(source: Source): Lines {
+  const [name, ...others] = namesOf(source);
+  const [lines, from] = fetched(name, source.kind === 'url' ? source.url : addressOf(name));
+  return {
+    uses: ['readShapes'],
+    lines: [
+      ...(others.length > 0 ? [`// And so on: the page took all points together.`] : []),
+      ...lines,
+      `const shapes = await readShapes(`,
+      `  await ${from}.blob(),`,
+      `  { name: ${quoted(name.replace(/\.gz$/i, ''))} });`,
+    ],
+  };
 }
 
 /** What downloads are called, before the dot. */
@@ -90,14 +202,7 @@ function pointsOf(source: Source, hasMore: boolean): Lines {
 }
 
 function readOne({ name, address }: { name: string; address: string }, flat: boolean): Lines {
-  const lines = [`const file = await fetch(`, `  ${quoted(address)});`];
-  if (isGzipName(name)) {
-    lines.push(
-      `const unzipped = new Response(file.body`,
-      `  .pipeThrough(new DecompressionStream('gzip')));`,
-    );
-  }
-  const from = isGzipName(name) ? 'unzipped' : 'file';
+  const [lines, from] = fetched(name, address);
   lines.push(
     `const { points${flat ? ': xyz' : ''} } = await readPoints(`,
     `  await ${from}.blob(),`,
@@ -105,6 +210,17 @@ function readOne({ name, address }: { name: string; address: string }, flat: boo
   );
   if (flat) lines.push(FLAT);
   return { uses: ['readPoints'], lines };
+}
+
+/** The lines that fetch a file, and what they call it. */
+function fetched(name: string, address: string): [lines: string[], from: string] {
+  const lines = [`const file = await fetch(`, `  ${quoted(address)});`];
+  if (!isGzipName(name)) return [lines, 'file'];
+  lines.push(
+    `const unzipped = new Response(file.body`,
+    `  .pipeThrough(new DecompressionStream('gzip')));`,
+  );
+  return [lines, 'unzipped'];
 }
 
 function readAll(addresses: readonly string[], flat: boolean): Lines {
@@ -125,7 +241,7 @@ function readAll(addresses: readonly string[], flat: boolean): Lines {
 
 const FLAT = `const points = xyz.filter((_, i) => i % 3 < 2);`;
 
-/** The changes by hand, one a line; without those that name a point that is not there. */
+/** The changes of points by hand, one a line; without those that name a point that is not there. */
 function changes(edits: readonly Edit[], source: Source, isWeighed: boolean): string[] {
   let count = source.kind === 'generator' ? source.count : Infinity;
   const ifWeighed = (line: string) => (isWeighed ? [line] : []);
@@ -133,19 +249,19 @@ function changes(edits: readonly Edit[], source: Source, isWeighed: boolean): st
     `const changed = [...points];`,
     ...ifWeighed(`const radii = Array(points.length / 2).fill(0);`),
     ...edits.flatMap((edit) => {
-      if (edit.do === 'add') {
+      if (addsPoint(edit)) {
         count++;
         return [`changed.push(${edit.at.join(', ')});`, ...ifWeighed(`radii.push(0);`)];
       }
-      if (edit.point >= count) return [];
-      if (edit.do === 'weigh') return ifWeighed(`radii[${edit.point}] = ${edit.radius};`);
-      if (edit.do === 'move')
+      if (edit.do === 'weigh' && edit.point < count)
+        return ifWeighed(`radii[${edit.point}] = ${edit.radius};`);
+      if (edit.do === 'move' && edit.point < count)
         return [`changed.splice(${2 * edit.point}, 2, ${edit.at.join(', ')});`];
-      count--;
-      return [
-        `changed.splice(${2 * edit.point}, 2);`,
-        ...ifWeighed(`radii.splice(${edit.point}, 1);`),
-      ];
+      return removedBy(edit).flatMap((point) => {
+        if (point >= count) return [];
+        count--;
+        return [`changed.splice(${2 * point}, 2);`, ...ifWeighed(`radii.splice(${point}, 1);`)];
+      });
     }),
   ];
 }

@@ -2,9 +2,7 @@ import { type Edit, withEdit } from '../model/edits';
 import type { Page, Part } from '../page';
 import type { Tool } from '../settings';
 import { byId, radios } from './dom';
-
-/** How near to a point the pointer has to be, in pixels. */
-const REACH = { mouse: 10, touch: 24 };
+import { middleOf, nearest, placeAt, reachOf } from './picking';
 
 /** A pointer that moved less than this has clicked. */
 export const CLICK = 5;
@@ -33,45 +31,16 @@ export function editor(page: Page): Part {
   const flat = () => page.settings.source.dimension === 2 && !page.live && page.summary !== null;
   const points = () => (page.positions?.length ?? 0) / 3;
 
-  /** The nearest point within some pixels, or null. */
-  const near = (x: number, y: number, reach: number): number | null => {
-    const { viewer, positions } = page;
-    if (!viewer || !positions) return null;
-    const [px, py] = viewer.at2d(x, y);
-    const [ex] = viewer.at2d(x + reach, y);
-    let nearest = (ex - px) ** 2;
-    let found: number | null = null;
-    for (let i = 0; i < positions.length; i += 3) {
-      const squared = (positions[i] - px) ** 2 + (positions[i + 1] - py) ** 2;
-      if (squared <= nearest) [nearest, found] = [squared, i / 3];
-    }
-    return found;
-  };
-
-  /**
-   * A place on the canvas in the input's units, rounded to a fraction of a pixel: so links stay
-   * short.
-   */
-  const place = (x: number, y: number): [number, number] => {
-    const { viewer } = page;
-    const { center, scale } = page.summary!.frame;
-    const toInput = ([fx, fy]: [number, number]) =>
-      [fx / scale + center[0], fy / scale + center[1]] as const;
-    const [ix, iy] = toInput(viewer!.at2d(x, y));
-    const pixel = toInput(viewer!.at2d(x + 1, y))[0] - ix;
-    const digits = Math.min(15, Math.max(0, 1 - Math.floor(Math.log10(pixel))));
-    return [Number(ix.toFixed(digits)), Number(iy.toFixed(digits))];
-  };
-
   const change = (edit: Edit, words: string) => {
     said.textContent = words;
     undone = [];
     return page.edit(withEdit(page.settings.edits, edit));
   };
-  const add = (x: number, y: number) => change({ do: 'add', at: place(x, y) }, 'Point added');
+  const add = (x: number, y: number) =>
+    change({ do: 'add', at: placeAt(page, x, y) }, 'Point added');
   const remove = (point: number) => change({ do: 'remove', point }, 'Point removed');
   const move = (point: number, x: number, y: number) =>
-    change({ do: 'move', point, at: place(x, y) }, '');
+    change({ do: 'move', point, at: placeAt(page, x, y) }, '');
 
   const mark = (point: number | null) => {
     ring.hidden = point === null || !page.viewer || point >= points();
@@ -90,7 +59,7 @@ export function editor(page: Page): Part {
       if (!flat() || event.button !== 0 || !event.isPrimary) return;
       const { offsetX: x, offsetY: y } = event;
       pressed = { x, y, moved: false };
-      held = near(x, y, event.pointerType === 'mouse' ? REACH.mouse : REACH.touch);
+      held = nearest(page, x, y, reachOf(event));
       mark(held);
       if (held === null) return;
       event.stopImmediatePropagation();
@@ -106,7 +75,7 @@ export function editor(page: Page): Part {
     if (pressed) {
       pressed.moved ||= Math.hypot(x - pressed.x, y - pressed.y) >= CLICK;
       if (held !== null && pressed.moved) void move(held, x, y);
-    } else if (event.pointerType === 'mouse') mark(near(x, y, REACH.mouse));
+    } else if (event.pointerType === 'mouse') mark(nearest(page, x, y, reachOf(event)));
   });
 
   const release = (event: PointerEvent) => {
@@ -126,8 +95,8 @@ export function editor(page: Page): Part {
     mark(null);
   });
 
-  const middle = () => [canvas.clientWidth / 2, canvas.clientHeight / 2] as const;
-  const nearestToMiddle = () => near(...middle(), canvas.clientWidth + canvas.clientHeight);
+  const middle = () => middleOf(canvas);
+  const nearestToMiddle = () => nearest(page, ...middle(), Infinity);
   const nudge = (right: number, up: number) => {
     const { positions, viewer } = page;
     const [width] = viewer!.seen;

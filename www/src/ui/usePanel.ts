@@ -29,10 +29,14 @@ export function usePanel(page: Page): Part {
     }
     setTimeout(() => (copy.textContent = 'Copy'), 2500);
   });
+  /** Counts what was asked: an earlier answer is of no interest. */
+  let asked = 0;
   const tell = async () => {
     if (byId('use').hidden) return;
+    const own = ++asked;
     const { codeFor } = await import('./code');
-    byId('code').textContent = codeFor(page.settings, page.summary);
+    const polygons = page.summary?.given === undefined ? null : await page.model.constrained();
+    if (own === asked) byId('code').textContent = codeFor(page.settings, page.summary, polygons);
   };
   return {
     changed: () => void tell(),
@@ -53,7 +57,7 @@ async function viewAs(format: (typeof VIEWS)[number], page: Page): Promise<Saved
   }
   return {
     extension: '.svg',
-    bytes: new TextEncoder().encode((await import('../view/svg')).toSVG(page)),
+    bytes: new TextEncoder().encode(await (await import('../view/svg')).toSVG(page)),
   };
 }
 

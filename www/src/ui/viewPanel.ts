@@ -53,6 +53,12 @@ const FILTER_NOTES: Record<Dimension, Record<FilterKind, string>> = {
   },
 };
 
+/** What the layer of the hull shows. */
+const hullName = (dimension: Dimension, { summary }: Page) =>
+  dimension === 2 && summary?.given !== undefined
+    ? 'Sides of polygons, and lines'
+    : LAYER_NAMES[dimension].hull!;
+
 const NORMALS: Record<string, NonNullable<Settings['normal']>> = {
   X: [1, 0, 0],
   Y: [0, 1, 0],
@@ -144,6 +150,7 @@ export function viewPanel(page: Page): Part {
     const { colorSource = null } = page.summary ?? {};
     for (const { layer, box, name } of layers) {
       box.checked = settings.layers[layer];
+      if (layer === 'hull') name.textContent = hullName(dimension, page);
       if (layer !== 'skin') continue;
       if (dimension === 3) name.textContent = SKINS[colorSource ?? 'none'];
       box.disabled = dimension === 2 && colorSource === null;

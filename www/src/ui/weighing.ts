@@ -1,12 +1,12 @@
 import { withEdit } from '../model/edits';
 import type { Weights } from '../model/weighted';
 import type { Page, Part } from '../page';
-import type { Settings, Weighing } from '../settings';
-import '../styles/weights.css';
+import type { Weighing } from '../settings';
+import '../styles/overlay.css';
 import { byId, count, create, measured, things } from './dom';
-
-/** How near to a point or to its circle the pointer has to be, in pixels. */
-const REACH = { mouse: 10, touch: 24 };
+import { onCanvas, overlay, themeColor } from './overlay';
+import { isFlat, middleOf, nearest, reachOf } from './picking';
+import { toolButton } from './toolButton';
 
 /** How much a key or a notch of the wheel changes a radius, as a share of what is seen. */
 const NUDGE = 0.01;
@@ -16,12 +16,53 @@ const [MOST_CIRCLES, MOST_MARKS] = [3000, 5000];
 
 /** The choice of weights, the tool that changes those of points in 2D, and what shows them. */
 export function weighing(page: Page): Part {
-  const stage = byId('stage');
-  const canvas = byId<HTMLCanvasElement>('canvas');
-  const overlay = create('canvas', { id: 'weights-overlay' });
-  overlay.setAttribute('aria-hidden', 'true');
-  canvas.after(overlay);
+  const begin = overlay('weights-overlay');
+  let shown: Weights = { radii: null, hidden: new Uint32Array(), columns: [] };
+  /** Counts what was asked: an earlier answer is of no interest. */
+  let asked = 0;
+  const tellChoice = choice(page);
+  const tool = toolButton(page, 'weigh', 'Weigh', 'Drag a point: the further, the heavier');
+  hand(page, () => shown);
 
+  const tell = () => {
+    tellChoice(shown);
+    // Polygons have no weights.
+    const isPossible = page.summary?.given === undefined;
+    if (!isPossible && page.tool === 'weigh') page.tool = 'move';
+    tool(isPossible);
+  };
+  const draw = () => drawWeights(page, shown, begin());
+  /** Asks the model what is to be shown. */
+  const refresh = async () => {
+    const own = ++asked;
+    const answer = await page.model.weights();
+    if (own !== asked) return;
+    shown = answer;
+    tell();
+    draw();
+  };
+
+  const again = () => void refresh();
+  if (page.summary) again();
+  tell();
+  return {
+    changed() {
+      tell();
+      draw();
+    },
+    ran: again,
+    edited: again,
+    lived(on) {
+      tell();
+      if (on) draw();
+      else again();
+    },
+    moved: draw,
+  };
+}
+
+/** The controls in the panel, and the tally under the drawing. Returns what has them tell what is shown. */
+function choice(page: Page): (shown: Weights) => void {
   const by = create('select', { id: 'weights-by' });
   const scale = create('input', {
     id: 'weights-scale',
@@ -40,121 +81,58 @@ export function weighing(page: Page): Part {
   const tally = create('p', { id: 'hidden-points', className: 'tally', hidden: true });
   tally.setAttribute('role', 'status');
   byId('count').after(' ', tally);
-
-  const tool = create('input', { type: 'radio', name: 'tool', value: 'weigh' });
-  const label = create('label', {}, tool, create('span', {}, 'Weigh'));
-  label.title = 'Drag a point: the further, the heavier';
-  document.querySelector('.tools [role=radiogroup]')!.append(label);
-  document
-    .querySelector('#keys .only-2d')!
-    .append(' Square brackets make the point nearest to the cross lighter and heavier.');
-  tool.addEventListener('change', () => {
-    page.tool = 'weigh';
-    page.change({});
+  const { choose, last } = chooser(page);
+  by.addEventListener('change', () =>
+    choose(by.value ? { by: by.value, scale: page.settings.weights?.scale ?? 1 } : null),
+  );
+  scale.addEventListener('input', () => {
+    const chosen = last() ?? page.settings.weights;
+    if (chosen) void choose({ by: chosen.by, scale: scale.valueAsNumber });
   });
 
-  let shown: Weights = { radii: null, hidden: new Uint32Array(), columns: [] };
-  /** Counts what was asked: an earlier answer is of no interest. */
-  let asked = 0;
-  let held: number | null = null;
-
-  const isFlat = () => page.settings.source.dimension === 2 && !page.live && page.summary !== null;
-  const unit = () => page.summary!.frame.scale;
-  const placeOf = (i: number) => {
-    const { positions, viewer } = page;
-    return viewer!.onCanvas(positions![3 * i], positions![3 * i + 1], positions![3 * i + 2]);
-  };
-  /** Pixels per unit of the input, in 2D. */
-  const pixels = () => {
-    const { viewer } = page;
-    const [x] = viewer!.onCanvas(0, 0);
-    return (viewer!.onCanvas(1, 0)[0] - x) * unit();
-  };
-  const radiusOf = (i: number) => shown.radii?.[i] ?? 0;
-
-  /** Asks the model what is to be shown. */
-  const refresh = async () => {
-    const own = ++asked;
-    const answer = await page.model.weights();
-    if (own !== asked) return;
-    shown = answer;
-    tell(page.settings);
-    draw();
-  };
-
-  const tell = (settings: Settings) => {
-    const { weights } = settings;
-    const options = ['', 'random', ...shown.columns];
-    if (weights && !options.includes(weights.by)) options.push(weights.by);
-    if ([...by.options].map(({ value }) => value).join('\n') !== options.join('\n'))
-      by.replaceChildren(
-        ...options.map((value) =>
-          create(
-            'option',
-            { value },
-            { '': 'All the same', random: 'At random' }[value] ?? `Column “${value}”`,
-          ),
-        ),
-      );
-    by.value = weights?.by ?? '';
-    scale.disabled = !weights;
+  return ({ hidden, radii, columns }) => {
+    const { weights } = page.settings;
+    offer(by, columns, weights);
+    by.disabled = page.summary?.given !== undefined;
+    scale.disabled = !weights || by.disabled;
     if (weights) scale.value = String(weights.scale);
-    const { hidden, radii } = shown;
-    const points = page.summary?.points ?? 0;
     tally.hidden = hidden.length === 0 || page.live;
     tally.textContent = `· ${count(hidden.length)} hidden`;
-    note.textContent = radii
-      ? `A power diagram: distances are counted from balls. ${
-          hidden.length > 0
-            ? `${things(hidden.length, 'point is', 'points are')} hidden by heavier ones, of ${count(points)}.`
-            : 'No point is hidden.'
-        }`
-      : 'With radii, distances are counted from balls: the diagram is a power diagram, and heavy points may hide others.';
-    tool.checked = page.tool === 'weigh';
+    note.textContent = by.disabled
+      ? 'Points of polygons have no weights.'
+      : noteOn(radii !== null, hidden.length, page.summary?.points ?? 0);
   };
+}
 
-  const draw = () => {
-    const { width, height } = canvas.getBoundingClientRect();
-    const ratio = devicePixelRatio;
-    overlay.width = Math.round(width * ratio);
-    overlay.height = Math.round(height * ratio);
-    const { viewer, positions } = page;
-    const { radii, hidden } = shown;
-    if (!viewer || !positions || page.live || (!radii && page.tool !== 'weigh')) return;
-    const points = positions.length / 3;
-    const context = overlay.getContext('2d')!;
-    context.scale(ratio, ratio);
-    const style = getComputedStyle(document.documentElement);
-    if (isFlat() && points <= MOST_CIRCLES) {
-      context.strokeStyle = style.getPropertyValue('--ink');
-      context.globalAlpha = 0.45;
-      const size = pixels();
-      for (let i = 0; i < points; i++) {
-        const radius = radiusOf(i) * size;
-        if (radius < 1) continue;
-        const [x, y] = placeOf(i);
-        context.beginPath();
-        context.arc(x, y, radius, 0, 2 * Math.PI);
-        context.stroke();
-      }
-    }
-    context.globalAlpha = 1;
-    context.strokeStyle = style.getPropertyValue('--bad');
-    context.lineWidth = 1.8;
-    if (hidden.length > MOST_MARKS) return;
-    context.beginPath();
-    for (const i of hidden) {
-      if (i >= points) continue;
-      const [x, y] = placeOf(i);
-      context.moveTo(x - 4, y - 4);
-      context.lineTo(x + 4, y + 4);
-      context.moveTo(x + 4, y - 4);
-      context.lineTo(x - 4, y + 4);
-    }
-    context.stroke();
-  };
+/** Offers what radii can be taken from. */
+function offer(by: HTMLSelectElement, columns: readonly string[], weights: Weighing | null): void {
+  const options = ['', 'random', ...columns];
+  if (weights && !options.includes(weights.by)) options.push(weights.by);
+  if ([...by.options].map(({ value }) => value).join('\n') !== options.join('\n'))
+    by.replaceChildren(
+      ...options.map((value) =>
+        create(
+          'option',
+          { value },
+          { '': 'All the same', random: 'At random' }[value] ?? `Column “${value}”`,
+        ),
+      ),
+    );
+  by.value = weights?.by ?? '';
+}
 
-  // Of choices that come faster than points can be triangulated, the last counts.
+function noteOn(hasRadii: boolean, hidden: number, points: number): string {
+  if (!hasRadii)
+    return 'With radii, distances are counted from balls: the diagram is a power diagram, and heavy points may hide others.';
+  const rest =
+    hidden > 0
+      ? `${things(hidden, 'point is', 'points are')} hidden by heavier ones, of ${count(points)}.`
+      : 'No point is hidden.';
+  return `A power diagram: distances are counted from balls. ${rest}`;
+}
+
+/** Runs the points with chosen weights. Of choices that come faster than points can be triangulated, the last counts. */
+function chooser(page: Page) {
   let wanted: { weights: Weighing | null } | null = null;
   let isRunning = false;
   const choose = async (weights: Weighing | null) => {
@@ -173,125 +151,116 @@ export function weighing(page: Page): Part {
     }
     isRunning = false;
   };
-  by.addEventListener('change', () =>
-    choose(by.value ? { by: by.value, scale: page.settings.weights?.scale ?? 1 } : null),
-  );
-  scale.addEventListener('input', () => {
-    const { weights } = page.settings;
-    const chosen = wanted?.weights ?? weights;
-    if (chosen) void choose({ by: chosen.by, scale: scale.valueAsNumber });
-  });
+  return { choose, last: () => wanted?.weights ?? null };
+}
 
+/** Pixels per unit of the input, in 2D. */
+function pixelsOf({ viewer, summary }: Page): number {
+  return (viewer!.onCanvas(1, 0)[0] - viewer!.onCanvas(0, 0)[0]) * summary!.frame.scale;
+}
+
+/** Draws the radii of points as circles, in 2D, and marks those that are hidden. */
+function drawWeights(
+  page: Page,
+  { radii, hidden }: Weights,
+  context: CanvasRenderingContext2D,
+): void {
+  const { viewer, positions } = page;
+  if (!viewer || !positions || page.live || (!radii && page.tool !== 'weigh')) return;
+  const points = positions.length / 3;
+  if (isFlat(page) && points <= MOST_CIRCLES) {
+    context.strokeStyle = themeColor('ink');
+    context.globalAlpha = 0.45;
+    const size = pixelsOf(page);
+    for (let i = 0; i < points; i++) {
+      const radius = (radii?.[i] ?? 0) * size;
+      if (radius < 1) continue;
+      context.beginPath();
+      context.arc(...onCanvas(page, i), radius, 0, 2 * Math.PI);
+      context.stroke();
+    }
+  }
+  if (hidden.length > MOST_MARKS) return;
+  context.globalAlpha = 1;
+  context.strokeStyle = themeColor('bad');
+  context.lineWidth = 1.8;
+  context.beginPath();
+  for (const i of hidden) {
+    if (i >= points) continue;
+    const [x, y] = onCanvas(page, i);
+    context.moveTo(x - 4, y - 4);
+    context.lineTo(x + 4, y + 4);
+    context.moveTo(x + 4, y - 4);
+    context.lineTo(x - 4, y + 4);
+  }
+  context.stroke();
+}
+
+/** Changes weights by a drag, by the wheel and by keys. */
+function hand(page: Page, shown: () => Weights): void {
+  const stage = byId('stage');
+  const canvas = byId<HTMLCanvasElement>('canvas');
+  let held: number | null = null;
+  const radiusOf = (i: number) => shown().radii?.[i] ?? 0;
+  const step = () => (NUDGE * page.viewer!.seen[0]) / page.summary!.frame.scale;
+  const isPossible = () => isFlat(page) && page.summary!.given === undefined;
+  const isOn = () => isPossible() && page.tool === 'weigh' && page.viewer !== null;
+  /** The point whose middle or whose circle is nearest. */
+  const near = (event: PointerEvent | WheelEvent) => {
+    const size = pixelsOf(page);
+    const reach = reachOf(event instanceof PointerEvent ? event : { pointerType: 'mouse' });
+    const off = (distance: number, i: number) =>
+      Math.min(distance, Math.abs(distance - radiusOf(i) * size));
+    return nearest(page, event.offsetX, event.offsetY, reach, off);
+  };
   /** Gives a point a radius in units of the input. */
   const weigh = (point: number, radius: number) => {
     // A fraction of a pixel, so that links stay short.
-    const digits = Math.min(15, Math.max(0, Math.ceil(Math.log10(pixels())) + 1));
+    const digits = Math.min(15, Math.max(0, Math.ceil(Math.log10(pixelsOf(page))) + 1));
     const rounded = Number(Math.max(0, radius).toFixed(digits));
     byId('edited').textContent = `Radius ${measured(rounded)}`;
     void page.edit(withEdit(page.settings.edits, { do: 'weigh', point, radius: rounded }));
   };
-  /** The point whose middle or whose circle is nearest to a place, within some pixels. */
-  const near = (x: number, y: number, reach: number): number | null => {
-    const { positions, viewer } = page;
-    if (!viewer || !positions) return null;
-    const size = pixels();
-    let [best, least]: [number | null, number] = [null, reach];
-    for (let i = 0; 3 * i < positions.length; i++) {
-      const [px, py] = placeOf(i);
-      const distance = Math.hypot(px - x, py - y);
-      const off = Math.min(distance, Math.abs(distance - radiusOf(i) * size));
-      if (off <= least) [best, least] = [i, off];
-    }
-    return best;
-  };
-  const weighs = () => isFlat() && page.tool === 'weigh';
-  /** The radius with which the circle of the point that is held goes through a place. */
-  const radiusAt = ({ offsetX, offsetY }: PointerEvent) => {
-    const [x, y] = placeOf(held!);
-    return Math.hypot(offsetX - x, offsetY - y) / pixels();
-  };
 
   // Before the canvas hears of it, where a drag moves points and the view.
-  const capture = { capture: true };
-  stage.addEventListener(
-    'pointerdown',
-    (event) => {
-      if (event.target !== canvas || !weighs() || event.button !== 0 || !event.isPrimary) return;
-      const reach = event.pointerType === 'mouse' ? REACH.mouse : REACH.touch;
-      held = near(event.offsetX, event.offsetY, reach);
-      if (held === null) return;
-      event.stopPropagation();
-      canvas.focus({ preventScroll: true });
-      canvas.setPointerCapture(event.pointerId);
-    },
-    capture,
+  const listen = <K extends keyof HTMLElementEventMap>(
+    type: K,
+    heard: (event: HTMLElementEventMap[K]) => void,
+  ) => stage.addEventListener(type, heard, { capture: true, passive: false });
+  listen('pointerdown', (event) => {
+    if (event.target !== canvas || !isOn() || event.button !== 0 || !event.isPrimary) return;
+    held = near(event);
+    if (held === null) return;
+    event.stopPropagation();
+    canvas.focus({ preventScroll: true });
+    canvas.setPointerCapture(event.pointerId);
+  });
+  listen('pointermove', (event) => {
+    if (held === null) return;
+    event.stopPropagation();
+    const [x, y] = onCanvas(page, held);
+    // Its circle goes through the pointer.
+    weigh(held, Math.hypot(event.offsetX - x, event.offsetY - y) / pixelsOf(page));
+  });
+  for (const end of ['pointerup', 'pointercancel'] as const) listen(end, () => (held = null));
+  listen('wheel', (event) => {
+    const point = event.target === canvas && isOn() ? near(event) : null;
+    if (point === null) return;
+    event.preventDefault();
+    event.stopPropagation();
+    weigh(point, radiusOf(point) - Math.sign(event.deltaY) * step());
+  });
+  byId('keys-2d').append(
+    ' Square brackets make the point nearest to the cross lighter and heavier.',
   );
-  stage.addEventListener(
-    'pointermove',
-    (event) => {
-      if (held === null) return;
-      event.stopPropagation();
-      weigh(held, radiusAt(event));
-    },
-    capture,
-  );
-  for (const end of ['pointerup', 'pointercancel'] as const)
-    stage.addEventListener(end, () => (held = null), capture);
-  stage.addEventListener(
-    'wheel',
-    (event) => {
-      if (event.target !== canvas || !weighs()) return;
-      const point = near(event.offsetX, event.offsetY, REACH.mouse);
-      if (point === null) return;
-      event.preventDefault();
-      event.stopPropagation();
-      weigh(point, radiusOf(point) - Math.sign(event.deltaY) * step());
-    },
-    { capture: true, passive: false },
-  );
-  const step = () => (NUDGE * page.viewer!.seen[0]) / unit();
-  stage.addEventListener(
-    'keydown',
-    (event) => {
-      const by = { '[': -1, ']': 1 }[event.key];
-      if (!by || !isFlat() || !page.viewer || event.ctrlKey || event.metaKey || event.altKey)
-        return;
-      const reach = canvas.clientWidth + canvas.clientHeight;
-      const [x, y] = [canvas.clientWidth / 2, canvas.clientHeight / 2];
-      const point = nearestMiddle(x, y, reach);
-      if (point === null) return;
-      event.preventDefault();
-      event.stopPropagation();
-      weigh(point, radiusOf(point) + by * step());
-    },
-    capture,
-  );
-  /** The point whose middle is nearest to a place: one that grows stays it. */
-  const nearestMiddle = (x: number, y: number, reach: number): number | null => {
-    let [best, least]: [number | null, number] = [null, reach];
-    for (let i = 0; 3 * i < page.positions!.length; i++) {
-      const [px, py] = placeOf(i);
-      const distance = Math.hypot(px - x, py - y);
-      if (distance < least) [best, least] = [i, distance];
-    }
-    return best;
-  };
-
-  const again = () => void refresh();
-  if (page.summary) again();
-  tell(page.settings);
-  return {
-    changed(settings) {
-      tell(settings);
-      draw();
-    },
-    ran: again,
-    edited: again,
-    lived(on) {
-      tell(page.settings);
-      if (on) draw();
-      else again();
-    },
-    moved: draw,
-  };
+  listen('keydown', (event) => {
+    const by = { '[': -1, ']': 1 }[event.key];
+    const isPlain = !event.ctrlKey && !event.metaKey && !event.altKey;
+    if (!by || !isPlain || !isPossible()) return;
+    const point = nearest(page, ...middleOf(canvas), Infinity);
+    if (point === null) return;
+    event.preventDefault();
+    event.stopPropagation();
+    weigh(point, radiusOf(point) + by * step());
+  });
 }

@@ -5,7 +5,13 @@ import { rgbOf } from './colormap';
 const MAX_TRIANGLES = 100_000;
 
 /** What the page shows in 2D, as a picture: the unit square of the frame and a margin, y up. */
-export function toSVG({ settings, lastDrawing, positions, summary }: Page): string {
+export async function toSVG({
+  settings,
+  lastDrawing,
+  positions,
+  summary,
+  model,
+}: Page): Promise<string> {
   if (!lastDrawing?.surface || !positions || !summary)
     throw new Error('There is nothing to see yet.');
   const { surface, voronoi } = lastDrawing;
@@ -32,14 +38,16 @@ export function toSVG({ settings, lastDrawing, positions, summary }: Page): stri
     }
     parts.push('</g>');
   }
-  if (voronoi) {
+  const lines = (ends: Float32Array, name: string, wide: number) => {
     let path = '';
-    const { ends } = voronoi;
     for (let i = 0; i < ends.length; i += 6) path += `M${at(ends, i)}L${at(ends, i + 3)}`;
     parts.push(
-      `<path fill="none" stroke="${color('accent')}" stroke-width="${(1.5 * width).toFixed(2)}" d="${path}"/>`,
+      `<path fill="none" stroke="${color(name)}" stroke-width="${(wide * width).toFixed(2)}" stroke-linecap="round" d="${path}"/>`,
     );
-  }
+  };
+  if (voronoi) lines(voronoi.ends, 'accent', 1.5);
+  // The sides of polygons, where there are some.
+  if (layers.hull) lines(await model.hull(), 'ink', 2.5);
   if (layers.points) {
     parts.push(`<g fill="${color('ink')}">`);
     for (let i = 0; i < positions.length; i += 3) {

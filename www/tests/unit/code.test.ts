@@ -6,6 +6,7 @@ import { describe, test } from 'node:test';
 import { gzipSync } from 'node:zlib';
 import * as gdel from 'gdel-wasm';
 import { applyEdits, type Edit } from '../../src/model/edits';
+import { constraintsAfter, together } from '../../src/model/shapes';
 import type { Source } from '../../src/model/source';
 import { codeFor } from '../../src/ui/code';
 
@@ -84,6 +85,75 @@ describe('the code on the page', () => {
       const expected = await delaunay2d(applyEdits(before, all as Edit[]));
       assert.deepEqual(mesh.triangles, expected.triangles);
     }
+  });
+
+  describe('of polygons', () => {
+    const square = (low: number, high: number): Edit[] => [
+      ...[
+        [low, low],
+        [high, low],
+        [high, high],
+        [low, high],
+      ].map((at) => ({ do: 'corner', at }) as Edit),
+      { do: 'close' },
+    ];
+    const drawn: Edit[] = [...square(0, 9), ...square(3, 6)];
+    const polygonsOf = (edits: readonly Edit[], count: number, shapes?: gdel.Shapes) => ({
+      ...constraintsAfter(
+        shapes ? together([{ points: new Float64Array(3 * count), shapes }]) : null,
+        count,
+        edits,
+      )!,
+      start: count,
+      refinement: null,
+    });
+    const generated = (count: number): Source => ({
+      kind: 'generator',
+      dimension: 2,
+      distribution: 'uniform',
+      count,
+      seed: 1,
+    });
+
+    test('draws them, with points besides', async () => {
+      const mesh = await run(codeFor(settings(generated(0), drawn), null, polygonsOf(drawn, 0)));
+      assert.equal(mesh.insideTriangles().length, 3 * 8);
+      const more = await run(codeFor(settings(generated(20), drawn), null, polygonsOf(drawn, 20)));
+      assert.equal(more.coords.length, 2 * 28);
+      assert.ok(more.insideTriangles().length > 3 * 8);
+    });
+
+    test('chooses what the page chose', async () => {
+      const crossing: Edit[] = [...drawn, ...square(4, 12)];
+      const edits: Edit[] = [
+        ...crossing,
+        { do: 'mesh', split: 1, fill: 2, minAngle: 25, maxArea: 2 },
+      ];
+      const mesh = await run(codeFor(settings(generated(0), edits), null, polygonsOf(edits, 0)));
+      const { refinement } = mesh.constraints;
+      assert.ok(refinement.pointsInside > 0 && refinement.minAngle >= 25);
+    });
+
+    test('reads files, and adds to them', async () => {
+      const text =
+        '{"type":"Polygon","coordinates":[[[0,0],[9,0],[9,9],[0,9],[0,0]],[[1,1],[2,1],[1,2],[1,1]]]}';
+      const shapes = await gdel.readShapes(new TextEncoder().encode(text), { format: 'json' });
+      for (const name of ['a map.geojson', 'a map.geojson.gz']) {
+        const files = { [name]: name.endsWith('z') ? gzipSync(text) : text };
+        const code = (edits: Edit[]) =>
+          run(codeFor(settings(file(name, 2), edits), null, polygonsOf(edits, 7, shapes)), files);
+        assert.equal((await code([])).insideTriangles().length, 3 * 7);
+        const moved = await code([{ do: 'move', point: 0, at: [-1, -1] }]);
+        assert.deepEqual([...moved.coords.slice(0, 2)], [-1, -1]);
+        assert.equal(moved.insideTriangles().length, 3 * 7);
+        const holed = await code([
+          ...square(3, 6),
+          { do: 'mesh', split: 0, fill: 0, minAngle: 20, maxArea: 0 },
+        ]);
+        assert.ok(holed.constraints.refinement.minAngle >= 20);
+        assert.equal(new Set(holed.constraints.regions).size, 3);
+      }
+    });
   });
 
   test('reads a file of any name, compressed or not, in space and in the plane', async () => {

@@ -131,3 +131,12 @@ test('a link may name a file on the web', () => {
   assert.equal(settings.embed, true);
   assert.deepEqual(fromHash(toHash(settings)), settings);
 });
+
+test('a link to a file of shapes is to 2D, with what was changed by hand', () => {
+  const map = fromHash('#url=https://a.org/b.geojson');
+  assert.equal(map.source.dimension, 2);
+  const edits = [{ do: 'mesh', split: 0, fill: 0, minAngle: 30, maxArea: 0.5 }] as const;
+  assert.deepEqual(fromHash(toHash({ ...map, edits })).edits, edits);
+  assert.equal(filesSource([new File([], 'a.csv'), new File([], 'b.SVG.gz')], 3).dimension, 2);
+  assert.equal(filesSource([new File([], 'b.svg.csv')], 3).dimension, 3);
+});

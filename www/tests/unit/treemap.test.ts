@@ -1,11 +1,12 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
+import { TableError } from '../../src/model/rows';
 import { oklch, palette } from '../../src/treemap/colors';
 import { EXAMPLES } from '../../src/treemap/examples';
 import { boxIn, labelFor } from '../../src/treemap/label';
 import { outlineOf, SHAPES } from '../../src/treemap/shapes';
 import { hashOf, stateFrom } from '../../src/treemap/state';
-import { nested, numberIn, readTable, rolesOf, rowsOf, TableError } from '../../src/treemap/table';
+import { nested, numberIn, readTable, rolesOf, rowsOf } from '../../src/treemap/table';
 
 /** The rows of a table with the columns that suit. */
 const read = (text: string) => {
