@@ -13,7 +13,7 @@ pub mod cpu {
     }
 }
 pub mod constrained {
-    pub use crate::constrained::constrained;
+    pub use crate::constrained::{constrained, tin};
 }
 pub mod d2 {
     pub use crate::d2::Triangulation2;

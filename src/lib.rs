@@ -34,6 +34,7 @@
 //! | What connects all points at the least length? Which clusters are there? | [`SpanningTree`] |
 //! | Which triangles has a polygon with holes, or a terrain with breaklines? | [`Triangulator::constrained2d`] |
 //! | How does such a mesh get triangles for simulations, without small angles? | [`Constrained2::refine`] |
+//! | Which few points of a scan make a terrain that is near to all of them? | [`Triangulator::tin`] |
 //! | The same for places on a globe, by longitude and latitude | [`Sphere`] |
 //! | Which edges, facets and neighbours are there? | [`Mesh3::edges`], [`facets`](Mesh3::facets), [`vertex_neighbors`](Mesh3::vertex_neighbors) |
 //! | How large and how well shaped is each simplex? | [`Mesh3::volumes`], [`circumcenters`](Mesh3::circumcenters), [`radius_ratios`](Mesh3::radius_ratios) |
@@ -93,7 +94,9 @@ mod random;
 mod slots;
 
 pub use backend::Backend;
-pub use constrained::{Constrained2, Constraints, Fill, RefineLeft, RefineOptions, RefineStats, Refined2, Size};
+pub use constrained::{
+    Constrained2, Constraints, Fill, RefineLeft, RefineOptions, RefineStats, Refined2, Size, Tin, TinOptions, TinStats,
+};
 pub use d2::{
     Mesh2,
     verify::{MeshView2, verify2d},

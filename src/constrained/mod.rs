@@ -9,15 +9,20 @@
 //!
 //! `split` puts points where segments cross, on request; then the points are triangulated anew.
 //!
+//! `growing` has triangles that points are added to and removed from. With these, `refine` adds points to a mesh until its
+//! triangles are well shaped, and `tin` chooses some of the points of a terrain.
+//!
 //! The answer is unique: all edges that are not constrained are locally Delaunay with the symbolic perturbation of the
 //! heights, and for a given set of constrained edges only one triangulation is (Lee and Lin 1986). So it depends
 //! neither on the order of the constraints nor on how the mesh was made.
 
 mod fill;
 mod flat;
+mod growing;
 mod insert;
 mod refine;
 mod split;
+mod tin;
 mod topology;
 
 use crate::{
@@ -32,6 +37,7 @@ use crate::{
 use insert::{Inserted, Inserter, Lost};
 pub use refine::{RefineLeft, RefineOptions, RefineStats, Refined2, Size};
 use split::Split;
+pub use tin::{Tin, TinOptions, TinStats, tin};
 use topology::Marked;
 
 /// The number of crossings that [`Error::CrossingConstraints`] lists.

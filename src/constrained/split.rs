@@ -63,7 +63,7 @@ impl Split {
 }
 
 /// Returns where two segments cross, rounded, and how far that is from the crossing.
-fn crossing([[a, b], [c, d]]: [[[f64; 2]; 2]; 2]) -> ([f64; 2], f64) {
+pub(super) fn crossing([[a, b], [c, d]]: [[[f64; 2]; 2]; 2]) -> ([f64; 2], f64) {
     let exponent = common_exponent([a, b, c, d].as_flattened());
     let big = |p: [f64; 2]| p.map(|x| Big::new(x, exponent));
     let minus = |p: [f64; 2], q: [f64; 2]| {

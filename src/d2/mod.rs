@@ -5,7 +5,7 @@ mod edit;
 pub mod generate;
 #[cfg(feature = "gpu")]
 pub mod gpu;
-mod insert;
+pub(crate) mod insert;
 pub mod lawson;
 mod mesh;
 mod triangulation;

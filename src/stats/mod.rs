@@ -143,6 +143,8 @@ pub enum Phase {
     Finish,
     /// Finding the weights of [`Triangulator::transport3d`](crate::Triangulator::transport3d), which has no other phase.
     Transport,
+    /// Making points vertices of [`Triangulator::tin`](crate::Triangulator::tin), which has no other phase.
+    Tin,
 }
 
 impl Phase {
@@ -159,6 +161,7 @@ impl Phase {
             Phase::Flip => "flip",
             Phase::Finish => "finish",
             Phase::Transport => "transport",
+            Phase::Tin => "tin",
         }
     }
 }

@@ -14,6 +14,7 @@ mod regular;
 mod shared_device;
 #[cfg(feature = "gpu")]
 mod state;
+mod tin;
 mod transport;
 mod wait;
 

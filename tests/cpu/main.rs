@@ -25,4 +25,5 @@ mod predicates;
 mod refining;
 mod regular;
 mod threads;
+mod tin;
 mod typescript;

@@ -1,7 +1,11 @@
 //! The result: what was removed leaves no gaps in the indices.
 
 use super::{RefineLeft, RefineStats, Refined2, improve::Improver, pieces::Vertex};
-use crate::{constrained::Constrained2, index::NONE, predicates::orient2d};
+use crate::{
+    constrained::{Constrained2, growing::hull},
+    index::NONE,
+    predicates::orient2d,
+};
 
 /// Makes the refined mesh the result. `given` is what it was made of, which has as many points.
 pub(super) fn finish(improver: &Improver<'_>, given: &Constrained2, points: usize) -> Refined2 {
@@ -24,7 +28,7 @@ pub(super) fn finish(improver: &Improver<'_>, given: &Constrained2, points: usiz
     found.mesh.halfedges = kept.iter().map(|&t| mesh.triangles[t].across.map(moved)).collect();
     found.inside = kept.iter().map(|&t| mesh.triangles[t].is_inside).collect();
     found.mesh.duplicate_of.resize(points + found.added.len() - given.added.len(), NONE);
-    found.mesh.hull = hull(&found);
+    found.mesh.hull = hull(&found.mesh);
     let pieces = improver.pieces.pieces.iter().map(|piece| piece.ends.map(at));
     found.mesh.constraints = pieces.map(|[a, b]| [a.min(b), a.max(b)]).collect();
     found.mesh.constraints.sort_unstable();
@@ -32,21 +36,6 @@ pub(super) fn finish(improver: &Improver<'_>, given: &Constrained2, points: usiz
     found.segments = segments.into_iter().map(|piece| piece.map(at)).collect();
     let stats = statistics(improver, &kept, &places[points..]);
     Refined2 { constrained: found, segment_of, stats }
-}
-
-/// Returns the vertices of the hull from the lowest on.
-fn hull(found: &Constrained2) -> Vec<u32> {
-    let mesh = &found.mesh;
-    let mut after = vec![NONE; mesh.duplicate_of.len()];
-    for (t, across) in mesh.halfedges.iter().enumerate() {
-        for k in (0..3).filter(|&k| across[k] == NONE) {
-            let [from, to] = mesh.edge(t, k);
-            after[from as usize] = to;
-        }
-    }
-    let first = after.iter().position(|&to| to != NONE).map(|v| v as u32);
-    let on = |&v: &u32| Some(after[v as usize]).filter(|&v| Some(v) != first && v != NONE);
-    std::iter::successors(first, on).take(after.len()).collect()
 }
 
 /// Returns the pieces of the segments, in their order and direction, and the number of each one's segment.

@@ -8,12 +8,18 @@
 
 use super::{
     RefineOptions, Size,
-    growing::{Growing, Place},
     pieces::{Pieces, Vertex},
     queue::Queue,
     shape::{Measures, Shape},
 };
-use crate::{constrained::topology::previous, error::Error, index::NONE};
+use crate::{
+    constrained::{
+        growing::{Growing, Place},
+        topology::previous,
+    },
+    error::Error,
+    index::NONE,
+};
 use std::collections::VecDeque;
 
 /// Where a point is moved that is not beside the segment that it is to cut, but outside the hull: by units in the last place
@@ -204,20 +210,8 @@ impl<'a> Improver<'a> {
         if !self.sizes.is_empty() {
             self.sizes.push(0.5 * self.sizes[start as usize] + 0.5 * self.sizes[end as usize]);
         }
-        self.mesh.fill();
-        let second = self.pieces.cut(piece, vertex);
-        self.mesh.edges.push(NONE);
-        for i in 0..self.mesh.made.len() {
-            let t = self.mesh.made[i];
-            let [_, from, to] = self.mesh.triangles[t as usize].vertices;
-            for (v, e) in [(from, 3 * t), (to, 3 * t + 2)] {
-                if v == start {
-                    self.mesh.mark(e, piece);
-                } else if v == end {
-                    self.mesh.mark(e, second);
-                }
-            }
-        }
+        self.mesh.fill_cut(piece, [start, end]);
+        self.pieces.cut(piece, vertex);
         self.look_at_made();
         Ok(true)
     }

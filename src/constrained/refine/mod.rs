@@ -6,27 +6,24 @@
 //! off-centres (Üngör 2004); and what small angles between segments need is done as Miller, Pav and Walkington say
 //! (*When and why Ruppert's algorithm works*, 2003).
 //!
-//! 1. `growing`: triangles that points are added to and removed from;
-//! 2. `shape`: which triangles are bad, and where a point improves one;
-//! 3. `pieces`: segments, the pieces that they are cut into, and angles between them;
-//! 4. `queue`: in which order triangles are improved;
-//! 5. `improve`: one after the other;
-//! 6. `finish`: the mesh, and statistics.
+//! 1. `shape`: which triangles are bad, and where a point improves one;
+//! 2. `pieces`: segments, the pieces that they are cut into, and angles between them;
+//! 3. `queue`: in which order triangles are improved;
+//! 4. `improve`: one after the other, in the triangles of `growing`;
+//! 5. `finish`: the mesh, and statistics.
 //!
 //! Shapes are measured in floating point; signs are exact, so the mesh is always the constrained Delaunay triangulation
 //! of its points and pieces. Points are rounded. One that cuts a segment is beside it then, and the segment has a bend
 //! there.
 
 mod finish;
-mod growing;
 mod improve;
 mod pieces;
 mod queue;
 mod shape;
 
-use super::Constrained2;
+use super::{Constrained2, growing::Growing};
 use crate::{error::Error, index::NONE, input::points::Points2};
-use growing::Growing;
 use improve::Improver;
 
 /// The largest smallest angle that can be asked for, in degrees.

@@ -1,8 +1,11 @@
 //! The segments, the pieces that they are cut into, and the points on them.
 
-use super::{growing::Growing, shape::Shape};
+use super::shape::Shape;
 use crate::{
-    constrained::topology::{next, previous},
+    constrained::{
+        growing::Growing,
+        topology::{next, previous},
+    },
     index::NONE,
 };
 
@@ -43,13 +46,7 @@ impl Pieces {
     /// Takes the constrained edges of a mesh, and the edges of the hull that bound what is inside.
     pub(super) fn new(mesh: &mut Growing, constraints: &[[u32; 2]]) -> Self {
         let mut segments = constraints.to_vec();
-        let is_bare = |e: &u32| mesh.twin(*e) == NONE && mesh.piece(*e) == NONE && mesh.is_inside(*e);
-        let mut bare: Vec<u32> = (0..3 * mesh.triangles.len() as u32).filter(is_bare).collect();
-        let ends = |e: u32| [mesh.origin(e).min(mesh.target(e)), mesh.origin(e).max(mesh.target(e))];
-        bare.sort_unstable_by_key(|&e| ends(e));
-        segments.extend(bare.iter().map(|&e| ends(e)));
-        mesh.edges.resize(segments.len(), NONE);
-        (constraints.len() as u32..).zip(bare).for_each(|(piece, e)| mesh.mark(e, piece));
+        segments.extend(mesh.mark_hull());
         let whole =
             |(segment, &ends): (u32, &[u32; 2])| Piece { ends, segment, next: NONE, is_queued: false, is_last: false };
         let pieces = (0..).zip(&segments).map(whole).collect();
@@ -111,15 +108,14 @@ impl Pieces {
         }
     }
 
-    /// Cuts a piece in two at a vertex. Returns the second part.
-    pub(super) fn cut(&mut self, piece: u32, vertex: u32) -> u32 {
+    /// Cuts a piece in two at a vertex. The second part comes after all pieces.
+    pub(super) fn cut(&mut self, piece: u32, vertex: u32) {
         let second = self.pieces.len() as u32;
         let whole = self.pieces[piece as usize];
         let [start, end] = whole.ends;
         let of = |ends, next| Piece { ends, next, is_queued: false, ..whole };
         self.pieces[piece as usize] = of([start, vertex], second);
         self.pieces.push(of([vertex, end], whole.next));
-        second
     }
 
     /// Returns the pieces of a segment from its lower vertex on.

@@ -6,7 +6,7 @@
 //! vertex is in conflict with it, it sees the other two edges, too: both are exact, so the cavity has the shape of a star,
 //! and no triangle that is made is flat or turned.
 
-use super::super::topology::{next, previous};
+use super::topology::{next, previous};
 use crate::{
     d2::Mesh2,
     error::Error,
@@ -181,6 +181,27 @@ impl Growing {
         self.edges[piece as usize] = e;
     }
 
+    /// Prepares for questions about the places of these points, which are no vertices.
+    pub(super) fn prepare_for(&mut self, points: &[[f64; 2]]) {
+        self.is_moderate &= expansions_are_exact(points);
+    }
+
+    /// Makes the edges of the hull pieces where it bounds what is inside, unless they are pieces already. Returns their
+    /// ends, the lower vertex of each first; they ascend.
+    pub(super) fn mark_hull(&mut self) -> Vec<[u32; 2]> {
+        let is_bare = |e: &u32| self.twin(*e) == NONE && self.piece(*e) == NONE && self.is_inside(*e);
+        let mut bare: Vec<u32> = (0..3 * self.triangles.len() as u32).filter(is_bare).collect();
+        let ends = |mesh: &Self, e: u32| {
+            let (from, to) = (mesh.origin(e), mesh.target(e));
+            [from.min(to), from.max(to)]
+        };
+        bare.sort_unstable_by_key(|&e| ends(self, e));
+        let first = self.edges.len();
+        self.edges.resize(first + bare.len(), NONE);
+        (first as u32..).zip(&bare).for_each(|(piece, &e)| self.mark(e, piece));
+        bare.into_iter().map(|e| ends(self, e)).collect()
+    }
+
     /// Adds a point, which is no vertex yet.
     pub(super) fn push(&mut self, p: [f64; 2]) {
         self.is_moderate &= expansions_are_exact(&[p]);
@@ -191,7 +212,8 @@ impl Growing {
         if self.is_moderate { orient2d_by_expansions(a, b, c) } else { orient2d(a, b, c) }
     }
 
-    fn orient(&self, a: u32, b: u32, p: [f64; 2]) -> Sign {
+    /// Returns the side of the line from a vertex to another on which a point is: 1 on the left, −1 on the right.
+    pub(super) fn orient(&self, a: u32, b: u32, p: [f64; 2]) -> Sign {
         self.orient2d(self.point(a), self.point(b), p)
     }
 
@@ -221,7 +243,7 @@ impl Growing {
     }
 
     /// Returns the place of a point in a triangle or on its border.
-    fn place(&self, t: u32, p: [f64; 2]) -> Place {
+    pub(super) fn place(&self, t: u32, p: [f64; 2]) -> Place {
         let mut on = None;
         for e in 3 * t..3 * t + 3 {
             match self.orient(self.origin(e), self.target(e), p) {
@@ -320,6 +342,11 @@ impl Growing {
         Ok(())
     }
 
+    /// Returns the triangles of the cavity.
+    pub(super) fn cavity(&self) -> &[u32] {
+        &self.cavity
+    }
+
     /// Returns the pieces on the border of the cavity.
     pub(super) fn border_pieces(&self) -> impl Iterator<Item = u32> + '_ {
         self.border.iter().map(|border| border.piece).filter(|&piece| piece != NONE)
@@ -352,6 +379,26 @@ impl Growing {
                 self.triangles[after as usize].across[0] = out;
             }
         }
+    }
+
+    /// Does the same with the cavity of a point that cuts a piece with these ends in two. The part at the first end keeps
+    /// the number of the piece. Returns that of the other.
+    pub(super) fn fill_cut(&mut self, piece: u32, [start, end]: [u32; 2]) -> u32 {
+        self.fill();
+        let second = self.edges.len() as u32;
+        self.edges.push(NONE);
+        for i in 0..self.made.len() {
+            let t = self.made[i];
+            let [_, from, to] = self.triangles[t as usize].vertices;
+            for (v, e) in [(from, 3 * t), (to, 3 * t + 2)] {
+                if v == start {
+                    self.mark(e, piece);
+                } else if v == end {
+                    self.mark(e, second);
+                }
+            }
+        }
+        second
     }
 
     /// Puts a new half-edge against what is across it.
@@ -454,4 +501,18 @@ impl Growing {
         }
         false
     }
+}
+
+/// Returns the vertices of the hull of a mesh from the lowest on.
+pub(super) fn hull(mesh: &Mesh2) -> Vec<u32> {
+    let mut after = vec![NONE; mesh.duplicate_of.len()];
+    for (t, across) in mesh.halfedges.iter().enumerate() {
+        for k in (0..3).filter(|&k| across[k] == NONE) {
+            let [from, to] = mesh.edge(t, k);
+            after[from as usize] = to;
+        }
+    }
+    let first = after.iter().position(|&to| to != NONE).map(|v| v as u32);
+    let on = |&v: &u32| Some(after[v as usize]).filter(|&v| Some(v) != first && v != NONE);
+    std::iter::successors(first, on).take(after.len()).collect()
 }
