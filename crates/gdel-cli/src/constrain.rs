@@ -7,7 +7,7 @@ use gdel::{
     verify2d,
 };
 use gdel_io::{
-    PointCloud, ShapeFormat,
+    PointCloud, ShapeFormat, Shapes,
     files::{self, shown},
 };
 use std::path::Path;
@@ -102,15 +102,21 @@ pub(super) fn read_edges(cloud: PointCloud<2>, edges: &Path, fill: Option<FillRu
     Ok(Constrained { cloud, constraints })
 }
 
-/// Reads shapes, with a note on standard error about what is left out.
-pub(super) fn read_shapes(path: &Path, format: ShapeFormat, fill: Option<FillRule>) -> Result<Constrained, Failure> {
+/// Reads shapes with their heights, and notes on standard error what is left out.
+pub(super) fn read_breaklines(path: &Path, format: ShapeFormat) -> Result<Shapes, Failure> {
     let _progress = Progress::new("reading");
     let shapes = files::read_shapes(path, format)?;
-    if shapes.dropped_z {
-        eprintln!("gdel: {}: the z coordinates are dropped", shown(path));
-    }
     if !shapes.left_out.is_empty() {
         eprintln!("gdel: {}: left out: {}", shown(path), shapes.left_out.join(", "));
+    }
+    Ok(shapes)
+}
+
+/// Reads shapes as they are seen from above, and notes on standard error what is left out.
+pub(super) fn read_shapes(path: &Path, format: ShapeFormat, fill: Option<FillRule>) -> Result<Constrained, Failure> {
+    let shapes = read_breaklines(path, format)?;
+    if shapes.dropped_z {
+        eprintln!("gdel: {}: the z coordinates are dropped", shown(path));
     }
     let constraints = shapes.constraints();
     let constraints = match fill {

@@ -153,8 +153,12 @@ struct Report<'a> {
     seconds: &'a [(&'static str, f64)],
 }
 
-fn as_map<T: Serialize, S: Serializer>(entries: &&[(&'static str, T)], serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.collect_map(entries.iter().map(|(name, value)| (name, value)))
+/// Serialises names and what they stand for.
+pub(super) fn as_map<T: Serialize, S: Serializer>(
+    entries: &impl AsRef<[(&'static str, T)]>,
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(entries.as_ref().iter().map(|(name, value)| (name, value)))
 }
 
 impl fmt::Display for Report<'_> {
@@ -172,22 +176,28 @@ impl fmt::Display for Report<'_> {
             Counts::D3 { tetrahedra, .. } => writeln!(f, "{:<16}{tetrahedra}", "tetrahedra")?,
             Counts::D2 { triangles, .. } => writeln!(f, "{:<16}{triangles}", "triangles")?,
         }
-        for (name, number) in self.numbers {
-            let name = name.replace('_', " ");
-            match *number {
-                Number::Count(count) => writeln!(f, "{name:<16}{count}")?,
-                // With an exponent where digits would be many.
-                Number::Real(real) if real == 0.0 || (1e-5..1e16).contains(&real.abs()) => {
-                    writeln!(f, "{name:<16}{real}")?;
-                }
-                Number::Real(real) => writeln!(f, "{name:<16}{real:e}")?,
-                Number::Name(word) => writeln!(f, "{name:<16}{word}")?,
-                Number::Truth(truth) => writeln!(f, "{name:<16}{}", if truth { "yes" } else { "no" })?,
-            }
-        }
+        numbers(f, self.numbers)?;
         let seconds: Vec<String> = self.seconds.iter().map(|(name, time)| format!("{name} {time:.3}")).collect();
         write!(f, "{:<16}{}", "seconds", seconds.join(", "))
     }
+}
+
+/// Writes numbers, one on each line, after their names.
+pub(super) fn numbers(f: &mut fmt::Formatter<'_>, numbers: &[(&'static str, Number)]) -> fmt::Result {
+    for (name, number) in numbers {
+        let name = name.replace('_', " ");
+        match *number {
+            Number::Count(count) => writeln!(f, "{name:<16}{count}")?,
+            // With an exponent where digits would be many.
+            Number::Real(real) if real == 0.0 || (1e-5..1e16).contains(&real.abs()) => {
+                writeln!(f, "{name:<16}{real}")?;
+            }
+            Number::Real(real) => writeln!(f, "{name:<16}{real:e}")?,
+            Number::Name(word) => writeln!(f, "{name:<16}{word}")?,
+            Number::Truth(truth) => writeln!(f, "{name:<16}{}", if truth { "yes" } else { "no" })?,
+        }
+    }
+    Ok(())
 }
 
 /// A number, what is true or not, or a word, that a command prints.

@@ -22,6 +22,7 @@ mod report;
 mod signals;
 mod sphere;
 mod surface;
+mod tin;
 mod transport;
 mod tree;
 mod triangulate;
@@ -64,6 +65,7 @@ enum Command {
     Transport(transport::Arguments),
     Alpha(alpha::Arguments),
     Surface(surface::Arguments),
+    Tin(tin::Arguments),
     Tree(tree::Arguments),
     Adapters(adapters::Arguments),
 }
@@ -90,6 +92,7 @@ fn main() -> ExitCode {
         Command::Transport(arguments) => transport::run(&arguments),
         Command::Alpha(arguments) => alpha::run(&arguments),
         Command::Surface(arguments) => surface::run(&arguments),
+        Command::Tin(arguments) => tin::run(&arguments),
         Command::Tree(arguments) => tree::run(&arguments),
         Command::Adapters(arguments) => adapters::run(&arguments),
     };

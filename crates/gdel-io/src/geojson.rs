@@ -22,6 +22,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<Shapes, FormatError> {
     if shapes.rings.is_empty() {
         shapes.fill = Fill::All;
     }
+    if shapes.heights.iter().all(Option::is_none) {
+        shapes.heights.clear();
+    }
     Ok(shapes)
 }
 
@@ -44,23 +47,29 @@ fn add(geometry: &GeometryValue, shapes: &mut Shapes) -> Result<(), FormatError>
 }
 
 fn add_points(positions: &[::geojson::Position], shapes: &mut Shapes) -> Result<(), FormatError> {
-    let points = points(positions, shapes)?;
-    shapes.points.extend(points);
-    Ok(())
+    add_with_heights(positions, shapes, |shapes, points| shapes.points.extend(points))
 }
 
 fn add_line(positions: &[::geojson::Position], shapes: &mut Shapes) -> Result<(), FormatError> {
-    let points = points(positions, shapes)?;
-    shapes.add_line(&points);
-    Ok(())
+    add_with_heights(positions, shapes, Shapes::add_line)
 }
 
 fn add_polygon(rings: &[Vec<::geojson::Position>], shapes: &mut Shapes) -> Result<(), FormatError> {
-    rings.iter().try_for_each(|ring| {
-        let points = points(ring, shapes)?;
-        shapes.add_ring(&points);
-        Ok(())
-    })
+    rings.iter().try_for_each(|ring| add_with_heights(ring, shapes, Shapes::add_ring))
+}
+
+/// Adds positions, or all but the last one of a ring, and their heights.
+fn add_with_heights(
+    positions: &[::geojson::Position],
+    shapes: &mut Shapes,
+    add: impl Fn(&mut Shapes, &[[f64; 2]]),
+) -> Result<(), FormatError> {
+    let points = points(positions, shapes)?;
+    let first = shapes.points.len();
+    add(shapes, &points);
+    let added = &positions[..shapes.points.len() - first];
+    shapes.heights.extend(added.iter().map(|position| position.as_slice().get(2).copied()));
+    Ok(())
 }
 
 /// Returns positions without what follows *x* and *y*.

@@ -8,6 +8,8 @@ use gdel::{Constraints, Fill};
 pub struct Shapes {
     /// The points.
     pub points: Vec<[f64; 2]>,
+    /// The height of each point, if there is one; an empty list if no point has one.
+    pub heights: Vec<Option<f64>>,
     /// Segments that bound nothing.
     pub edges: Vec<[u32; 2]>,
     /// Closed polygons, which are boundaries; the last vertex is not the first one again.

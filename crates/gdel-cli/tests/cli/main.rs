@@ -5,6 +5,7 @@ mod derived;
 mod inputs;
 mod outputs;
 mod refine;
+mod tin;
 mod verify;
 mod weights;
 

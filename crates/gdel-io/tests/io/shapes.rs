@@ -36,6 +36,9 @@ fn geojson_of_all_kinds() {
     assert_eq!(shapes.edges, [[10, 11], [11, 12], [12, 10], [13, 14]]);
     assert_eq!(shapes.points[7..10], [[1.0, 1.0], [0.5, 2.0], [1e-3, -250.0]]);
     assert!(shapes.dropped_z && shapes.fill == Fill::EvenOdd && shapes.left_out.is_empty());
+    let heights = (0..).zip(&shapes.heights).filter_map(|(i, height)| Some((i, (*height)?)));
+    assert_eq!(heights.collect::<Vec<(usize, f64)>>(), [0, 1, 2, 3].map(|i| (i, 5.0)));
+    assert_eq!(shapes.heights.len(), shapes.points.len());
     assert_eq!(mesh(&shapes).1, 81.0 - 4.5 + 0.5);
 }
 
