@@ -44,6 +44,7 @@ const INTERFACES = [
   'd3-voronoi-treemap',
   'd3-weighted-voronoi',
   'earcut',
+  'tin',
   'treemap',
 ];
 

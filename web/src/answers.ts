@@ -191,6 +191,28 @@ export interface Transport {
   readonly steps: number;
 }
 
+/** The arrays and numbers of a terrain, which `gdel-wasm/tin` makes. */
+export interface TinArrays {
+  /** The coordinates of the vertices: x, y, z, x, y, z, … */
+  readonly vertices: Coordinates;
+  /** 3 vertices per triangle, counter-clockwise as seen from above if x points to the right and y up. */
+  readonly triangles: Indices;
+  /** The point that each vertex is; −1 for those that were put where `edges` and `rings` cross. */
+  readonly sources: SignedIndices;
+  /** The edges that pieces of `edges` and `rings` are: 2 vertices each, the lower one first, in ascending order. */
+  readonly edges: Indices;
+  /** How far from the surface the farthest point is that counts. */
+  readonly maxError: number;
+  /** How many points have the x and y of another one that counts in their place. */
+  readonly duplicates: number;
+  /** How many of these have another height than that one. */
+  readonly otherHeights: number;
+  /** How many places of points are outside the boundaries, so that their heights do not matter. */
+  readonly outside: number;
+  /** Whether more vertices were needed than `maxPoints`. */
+  readonly limited: boolean;
+}
+
 /** Options of `alphaShape`. */
 export interface AlphaOptions extends TaskOptions {
   /**

@@ -22,19 +22,9 @@ export function constraintsOf(
   options: ConstraintOptions,
   points: Coordinates,
 ): { points: Coordinates; segments: Segments } {
-  const { edges, rings, polygons, holes, fill, crossings = 'error' } = options;
-  const hasBoundary = (rings ?? polygons ?? null) !== null;
-  const rule = fill ?? (hasBoundary ? 'evenodd' : 'all');
-  checkOneOf('the option fill', rule, FILLS);
-  checkOneOf('the option crossings', crossings, ['error', 'split']);
   const count = points.length / 2;
-  const segments = {
-    edges: Uint32Array.from(pairsOf(edges ?? [], count)),
-    boundary: Uint32Array.from(sidesOf(rings ?? [], count)),
-    holes: Float64Array.from(placesOf('the option holes', holes ?? [])),
-    fill: rule,
-    isSplit: crossings === 'split',
-  };
+  const segments = segmentsOf(options, count);
+  const { polygons } = options;
   if (!polygons) return { points, segments };
   const own = coordinatesOf(polygons);
   const sides = own.rings.flatMap((ring) => closed(ring.map((i) => count + i)));
@@ -43,6 +33,22 @@ export function constraintsOf(
   all.set(points);
   all.set(own.coordinates, points.length);
   return { points: all, segments };
+}
+
+/** Returns the segments between so many points, without those of polygons. */
+export function segmentsOf(options: ConstraintOptions, count: number): Segments {
+  const { edges, rings, polygons, holes, fill, crossings = 'error' } = options;
+  const hasBoundary = (rings ?? polygons ?? null) !== null;
+  const rule = fill ?? (hasBoundary ? 'evenodd' : 'all');
+  checkOneOf('the option fill', rule, FILLS);
+  checkOneOf('the option crossings', crossings, ['error', 'split']);
+  return {
+    edges: Uint32Array.from(pairsOf(edges ?? [], count)),
+    boundary: Uint32Array.from(sidesOf(rings ?? [], count)),
+    holes: Float64Array.from(placesOf('the option holes', holes ?? [])),
+    fill: rule,
+    isSplit: crossings === 'split',
+  };
 }
 
 function listOf(what: string, value: unknown, mustBe: string): ArrayLike<unknown> {

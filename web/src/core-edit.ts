@@ -13,9 +13,10 @@ import { instantiate } from './instance.js';
 import { outputsFor, withEmpty } from './outputs.js';
 import type { Tasks } from './protocol.js';
 import { refineArgs } from './refining.js';
+import { tinArgs } from './tin-args.js';
 import type { ConstraintOptions } from './types.js';
 
-export { extrasOf, refineArgs };
+export { extrasOf, refineArgs, tinArgs };
 
 /** Returns a result whose constraints have methods, which cannot be sent from a worker. */
 export const withConstraints = (result: Tasks['constrained']['result']) => ({
@@ -89,6 +90,10 @@ export function openCore(module: WebAssembly.Module): Core {
         const { constraints } = refined;
         Object.assign(constraints, before, { added: constraints.added + before.added });
         return { points, ...refined, stats: statsOfCpu(refined.stats, started, memory) };
+      },
+      async tin({ points, segments, options }, control) {
+        control.onBlocking();
+        return glue.tin(points, segments, options, reporting(control));
       },
     },
   });

@@ -42,7 +42,7 @@ export type { Constrained, ConstrainedArrays } from './constrained.js';
 export { Delaunator } from './delaunator.js';
 export { SpanningTree, Surface3 } from './derived.js';
 export { GdelError, type GdelErrorCode } from './errors.js';
-export type { Triangles } from './files.js';
+export { Triangles } from './files.js';
 export { type Locations3, Mesh3 } from './mesh.js';
 export { type Locations2, Mesh2 } from './mesh2.js';
 /** @internal */
@@ -58,6 +58,9 @@ export {
 export { delaunaySphere, SphereMesh, type SphereOptions, SphereVoronoi } from './sphere.js';
 export type { ExactCounts, GpuStats, Round, SplayStats, UpdateStats } from './stats.js';
 export { delaunay2dSync, delaunay3dSync, load2d, load3d, loadConstraints } from './sync.js';
+/** @internal */
+export { runTin } from './terrain.js';
+/** @internal */
 export {
   type GenerateOptions,
   generate,
@@ -67,6 +70,7 @@ export {
   readShapes,
   verify,
   verify2d,
+  write,
 } from './tools.js';
 export { createTriangulator, delaunay2d, delaunay3d, Triangulator } from './triangulator.js';
 export type {

@@ -15,6 +15,7 @@ import type {
   SphereVoronoiArrays,
   SurfaceArrays,
   SurfaceOptions,
+  TinArrays,
   Topology,
   Transport,
   TransportOptions,
@@ -208,6 +209,10 @@ export interface Tasks {
       before: Pick<ConstrainedArrays, 'added' | 'moved' | 'zeroLength'>;
     };
     result: Tasks['constrained']['result'];
+  };
+  tin: {
+    args: { points: Coordinates; segments: Segments; options: object };
+    result: TinArrays;
   };
   generate: { args: { kind: string; count: number; seed: bigint }; result: Doubles };
   readPoints: { args: { bytes: Uint8Array; extension: string }; result: PointCloud };

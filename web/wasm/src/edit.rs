@@ -1,10 +1,10 @@
 //! Meshes in the memory of the CPU that gain and lose points, those of weighted points, and those with constraints.
 
 use gdel::{
-    Constrained2, Constraints, Error, Fill, Mesh2, Mesh3, RefineOptions, Size,
+    Constrained2, Constraints, Error, Fill, Mesh2, Mesh3, RefineOptions, Size, TinOptions,
     internals::{
         Options, Winding,
-        constrained::constrained,
+        constrained::{constrained, tin},
         cpu::{
             Insert, MeshOf,
             edit::{Edit, Sparse, Used, delaunay_of_used, edit},
@@ -28,7 +28,7 @@ use crate::{
         d3::{Outputs, mesh3},
     },
     mesh::{CallerMesh, property},
-    objects::{Thrown, error, get, object, set},
+    objects::{Thrown, error, get, object, set, signed},
     points::Coordinates,
     run::reporting,
 };
@@ -99,6 +99,20 @@ pub fn constrained_triangulation(
     let mut coordinates = Coordinates::new(&points)?;
     drop(points);
     coordinates.flip_y();
+    let holes = holes.as_chunks().0.iter().map(|&[x, y]| [x, -y]);
+    let constraints = constraints_of(&edges, &boundary, holes, fill, is_split);
+    let found = constrained(coordinates.points()?, &constraints, &options)?;
+    Ok(constrained_mesh(found, coordinates).0)
+}
+
+/// Returns constraints of two indices per segment.
+fn constraints_of(
+    edges: &[u32],
+    boundary: &[u32],
+    holes: impl Iterator<Item = [f64; 2]>,
+    fill: &str,
+    is_split: bool,
+) -> Constraints {
     let fill = match fill {
         "evenodd" => Fill::EvenOdd,
         "nonzero" => Fill::NonZero,
@@ -107,10 +121,44 @@ pub fn constrained_triangulation(
     };
     let constraints = Constraints::new().edges(edges.as_chunks().0).boundary(boundary.as_chunks().0).fill(fill);
     let constraints = if is_split { constraints.split_crossings() } else { constraints };
-    let holes = holes.as_chunks().0.iter();
-    let constraints = holes.fold(constraints, |constraints, &[x, y]| constraints.hole([x, -y]));
-    let found = constrained(coordinates.points()?, &constraints, &options)?;
-    Ok(constrained_mesh(found, coordinates).0)
+    holes.fold(constraints, Constraints::hole)
+}
+
+/// Makes terrain of 3D points, with the arguments of [`constrained_triangulation`] as `segments`. *y* stays as it is: the
+/// triangles are counter-clockwise as seen from above with *y* up.
+#[wasm_bindgen(js_name = tin)]
+pub fn tin_of(points: JsValue, segments: &JsValue, options: &JsValue, report: Function) -> Result<JsValue, Thrown> {
+    let run = Options { on_progress: Some(Arc::new(reporting(report))), ..Options::default() };
+    let coordinates = Coordinates::new(&points)?;
+    drop(points);
+    let indices =
+        |name| Ok::<_, Thrown>(property::<Uint32Array>(segments, name)?.map(|list| list.to_vec()).unwrap_or_default());
+    let holes = property::<Float64Array>(segments, "holes")?.map(|places| places.to_vec()).unwrap_or_default();
+    let fill = get(segments, "fill").as_string().unwrap_or_default();
+    let is_split = get(segments, "isSplit").is_truthy();
+    let places = holes.as_chunks().0.iter().copied();
+    let constraints = constraints_of(&indices("edges")?, &indices("boundary")?, places, &fill, is_split);
+    let mut wanted = TinOptions::default();
+    wanted.max_error = get(options, "maxError").as_f64().unwrap_or(0.0);
+    wanted.max_points = get(options, "maxPoints").as_f64().map(|count| count as usize);
+    let found = tin(coordinates.points()?, &constraints, &wanted, &run)?;
+    let triangles: Vec<[u32; 3]> = found.triangles().collect();
+    let vertices = Float64Array::new_from_slice(found.vertices.as_flattened());
+    // Crossings have all digits.
+    let is_of_points = found.constrained.added.is_empty();
+    let vertices = if is_of_points { coordinates.in_same_precision(vertices) } else { vertices.into() };
+    let count = |count: usize| JsValue::from(count as f64);
+    Ok(object([
+        ("vertices", vertices),
+        ("triangles", Uint32Array::new_from_slice(triangles.as_flattened()).into()),
+        ("sources", signed(&found.sources).into()),
+        ("edges", Uint32Array::new_from_slice(found.constrained.mesh.constraints.as_flattened()).into()),
+        ("maxError", found.max_error.into()),
+        ("duplicates", count(found.stats.duplicates)),
+        ("otherHeights", count(found.stats.other_heights)),
+        ("outside", count(found.stats.outside)),
+        ("limited", found.stats.limited.into()),
+    ]))
 }
 
 /// Returns a mesh with what became of its constraints, and that alone. `coordinates` are those of the points that it was made

@@ -33,7 +33,7 @@ impl Coordinates {
     }
 
     /// Converts an array to the precision of these coordinates.
-    #[cfg(feature = "surface")]
+    #[cfg(any(feature = "surface", feature = "edit"))]
     pub(crate) fn in_same_precision(&self, array: Float64Array) -> JsValue {
         match self {
             Coordinates::F32(_) => Float32Array::new(&array).into(),
