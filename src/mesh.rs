@@ -160,8 +160,9 @@ pub trait Mesh<const D: usize, const N: usize>: sealed::Sealed {
     /// Returns the weights of the points; none if the mesh is the Delaunay triangulation.
     fn weights(&self) -> &[f64];
 
-    /// Returns whether the mesh is a [constrained](crate::Triangulator::constrained2d) Delaunay triangulation.
-    fn has_constraints(&self) -> bool;
+    /// Returns the constrained edges, the lower vertex first, in ascending order; none if the mesh is not a
+    /// [constrained](crate::Triangulator::constrained2d) Delaunay triangulation.
+    fn constraints(&self) -> &[[u32; 2]];
 }
 
 pub(crate) mod sealed {
@@ -240,7 +241,7 @@ pub trait MeshInfo {
 }
 
 /// Implements [`Mesh`], [`MeshInfo`], and methods on `duplicate_of`, which both meshes have, for
-/// `$mesh<$D, $N>` with the simplices in `$simplices`. Its methods `opposites` and `has_constraints` are
+/// `$mesh<$D, $N>` with the simplices in `$simplices`. Its methods `opposites` and `constrained_edges` are
 /// those of [`Mesh`].
 macro_rules! common_methods {
     ($mesh:ident<$D:literal, $N:literal>, $simplices:ident) => {
@@ -263,8 +264,8 @@ macro_rules! common_methods {
                 &self.weights
             }
 
-            fn has_constraints(&self) -> bool {
-                self.has_constraints()
+            fn constraints(&self) -> &[[u32; 2]] {
+                self.constrained_edges()
             }
         }
 

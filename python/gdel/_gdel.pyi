@@ -54,6 +54,7 @@ class Mesh:
         points: Points,
         values: Floats,
         gradients: Floats | None,
+        inside: npt.NDArray[np.bool_] | None,
         queries: Points,
         method: tuple[str, str, float, str],
     ) -> Floats: ...

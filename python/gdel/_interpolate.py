@@ -9,6 +9,7 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
+from gdel._constrained import ConstrainedDelaunay
 from gdel._delaunay import Delaunay, State
 from gdel._points import Backend, Floats, as_floats, as_points, as_values
 
@@ -139,7 +140,8 @@ class Interpolator:
         values = np.ascontiguousarray(column)
         slopes = None if gradients is None else np.ascontiguousarray(gradients)
         method = (options.method, options.outside, fill, options.duplicates)
-        return state.mesh.interpolate(state.points, values, slopes, queries, method)
+        inside = self.tri.inside if isinstance(self.tri, ConstrainedDelaunay) else None
+        return state.mesh.interpolate(state.points, values, slopes, inside, queries, method)
 
 
 def _parts(array: npt.NDArray[Any]) -> list[npt.NDArray[Any]]:

@@ -45,8 +45,6 @@ pub(crate) trait Core<const D: usize, const N: usize>:
     fn links(&self) -> &[[u32; N]];
     /// Returns the facets of the hull, in 2D its vertices.
     fn hull(&self) -> &[u32];
-    /// Returns the constrained edges; none in 3D.
-    fn constraints(&self) -> &[[u32; 2]];
     /// Returns the facets of the hull.
     fn hull_facets(&self) -> Vec<[u32; D]>;
     fn dimension(&self) -> u8;
@@ -161,9 +159,6 @@ impl Core<3, 4> for Mesh3 {
     fn hull(&self) -> &[u32] {
         self.hull.as_flattened()
     }
-    fn constraints(&self) -> &[[u32; 2]] {
-        &[]
-    }
     fn hull_facets(&self) -> Vec<[u32; 3]> {
         self.hull.clone()
     }
@@ -184,9 +179,6 @@ impl Core<2, 3> for Mesh2 {
     }
     fn hull(&self) -> &[u32] {
         &self.hull
-    }
-    fn constraints(&self) -> &[[u32; 2]] {
-        &self.constraints
     }
     fn hull_facets(&self) -> Vec<[u32; 2]> {
         self.hull_edges().collect()

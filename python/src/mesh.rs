@@ -7,7 +7,7 @@ use crate::{
     core::{Arrays, Core, Data, Derives},
     derived,
     errors::exception,
-    queries::{self, Method},
+    queries::{self, Method, Values},
     tree::Tree,
     voronoi,
 };
@@ -257,14 +257,15 @@ impl Mesh {
         in_dimension!(self, queries::gradients(py, &input, values.as_slice()?, duplicates, self.threads))
     }
 
-    /// The interpolated value at each query.
-    #[pyo3(signature = (points, values, gradients, queries, method))]
+    /// The interpolated value at each query; `inside` says which simplices count, if not all do.
+    #[pyo3(signature = (points, values, gradients, inside, queries, method))]
     fn interpolate<'py>(
         &self,
         py: Python<'py>,
         points: &Bound<'py, PyAny>,
         values: PyReadonlyArray1<'py, f64>,
         gradients: Option<PyReadonlyArray2<'py, f64>>,
+        inside: Option<PyReadonlyArray1<'py, bool>>,
         queries: &Bound<'py, PyAny>,
         method: (String, String, f64, String),
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
@@ -272,7 +273,8 @@ impl Mesh {
         let (interpolation, outside, fill, duplicates) = method;
         let method = Method::new(&interpolation, &outside, fill, &duplicates)?;
         let gradients = gradients.as_ref().map(|gradients| gradients.as_slice()).transpose()?;
-        let values = (values.as_slice()?, gradients);
+        let inside = inside.as_ref().map(|inside| inside.as_slice()).transpose()?;
+        let values = Values { values: values.as_slice()?, gradients, inside };
         in_dimension!(self, queries::interpolate(py, &input, values, &queries, &method, self.threads))
     }
 

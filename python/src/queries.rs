@@ -152,12 +152,20 @@ where
     arrays::rows(py, found)
 }
 
-/// Returns the interpolated value at each query; `gradients`, if given, are those of the values.
+/// The values at points, with their gradients and which simplices count, if these are given.
+#[derive(Clone, Copy)]
+pub(crate) struct Values<'a> {
+    pub(crate) values: &'a [f64],
+    pub(crate) gradients: Option<&'a [f64]>,
+    pub(crate) inside: Option<&'a [bool]>,
+}
+
+/// Returns the interpolated value at each query.
 pub(crate) fn interpolate<'py, M: Core<D, N>, const D: usize, const N: usize>(
     data: &Data<M, D, N>,
     py: Python<'py>,
     input: &Input<'_>,
-    (values, gradients): (&[f64], Option<&[f64]>),
+    Values { values, gradients, inside }: Values<'_>,
     queries: &Input<'_>,
     method: &Method,
     threads: Option<usize>,
@@ -171,6 +179,7 @@ where
     let interpolator = compute::run(py, threads, || {
         let interpolator = Interpolator::new(data.locator(points)?, values)?.outside(method.outside);
         let interpolator = interpolator.duplicates(method.duplicates)?;
+        let interpolator = if let Some(inside) = inside { interpolator.inside(inside)? } else { interpolator };
         match gradients {
             None => Ok(interpolator),
             Some(gradients) => interpolator.with_gradients(gradients.as_chunks().0),

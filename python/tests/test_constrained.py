@@ -89,15 +89,34 @@ def test_pickling_keeps_constraints() -> None:
         copy.find_simplex((1, 1))
 
 
+def test_places_and_values_inside() -> None:
+    tri = gdel.ConstrainedDelaunay(POINTS, rings=RINGS)
+    # Inside, on the boundary of the hole, in the hole, outside the hull.
+    queries = [(1, 1), (3, 4.5), (4, 4), (20, 20)]
+    places = tri.find_simplex(queries)
+    assert (places >= 0).tolist() == [True, True, True, False]
+    assert not tri.inside[places[2]]
+    assert tri.nearest(queries).tolist() == [0, 4, 4, 2]
+    values = POINTS @ np.array([2.0, -1.0])
+    for interpolator in [gdel.LinearNDInterpolator, gdel.NaturalNeighborInterpolator]:
+        np.testing.assert_allclose(interpolator(tri, values)(queries), [1, 1.5, np.nan, np.nan], atol=1e-12)
+
+
+def test_values_do_not_cross_a_breakline() -> None:
+    grid = np.array([(x, y) for x in range(-4, 5) if x for y in range(-4, 5)] + [(0, -4), (0, 4)])
+    tri = gdel.ConstrainedDelaunay(grid, edges=[(len(grid) - 2, len(grid) - 1)])
+    values = np.where(grid[:, 0] < 0, 0.0, 1.0)
+    found = gdel.NaturalNeighborInterpolator(tri, values)([(0, 0.5), (0.25, 0.5), (3.25, -0.5)])
+    np.testing.assert_allclose(found, 1, atol=1e-12)
+
+
 def test_what_needs_a_delaunay_triangulation() -> None:
     tri = gdel.ConstrainedDelaunay(POINTS, rings=RINGS)
     for call in [
-        lambda: tri.find_simplex((1, 1)),
-        lambda: tri.nearest((1, 1)),
         lambda: tri.update(POINTS),
         lambda: tri.insert([(1, 1)]),
         lambda: tri.remove([0]),
-        lambda: gdel.LinearNDInterpolator(tri, np.zeros(9))((1, 1)),
+        lambda: gdel.CloughTocher2DInterpolator(tri, np.zeros(9))((1, 1)),
         lambda: gdel.Voronoi(tri).vertices,
         lambda: gdel.alpha_shape(tri),
     ]:

@@ -267,9 +267,9 @@ impl Mesh2 {
 }
 
 impl Mesh2 {
-    /// Returns whether there are constraints.
-    fn has_constraints(&self) -> bool {
-        !self.constraints.is_empty()
+    /// Returns the constrained edges.
+    fn constrained_edges(&self) -> &[[u32; 2]] {
+        &self.constraints
     }
 
     /// Returns for each simplex the simplices opposite its vertices.

@@ -289,9 +289,9 @@ impl Mesh3 {
 }
 
 impl Mesh3 {
-    /// Returns whether there are constraints, which exist in 2D only.
-    fn has_constraints(&self) -> bool {
-        false
+    /// Returns the constrained edges, which exist in 2D only.
+    fn constrained_edges(&self) -> &[[u32; 2]] {
+        &[]
     }
 
     /// Returns for each simplex the simplices opposite its vertices.

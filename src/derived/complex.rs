@@ -22,6 +22,8 @@ pub struct Complex<'a, const D: usize, const N: usize> {
     pub(crate) duplicate_of: Cow<'a, [u32]>,
     /// The weights of the points; none if the mesh is the Delaunay triangulation.
     pub(crate) weights: Cow<'a, [f64]>,
+    /// The neighbours as in `neighbors`, with [`NONE`] across constrained edges; `None` without constraints.
+    pub(super) visible: Option<Vec<[u32; N]>>,
 }
 
 /// The coordinates of a mesh's points.
@@ -36,18 +38,37 @@ impl<'a, const D: usize, const N: usize> Complex<'a, D, N> {
     ///
     /// # Errors
     ///
+    /// Returns the errors of [`unweighted`](Self::unweighted), and [`Error::ConstrainedMesh`].
+    pub(crate) fn delaunay(mesh: &'a impl Mesh<D, N>, points: Points<'a, D>) -> Result<Self, Error> {
+        let complex = Complex::unweighted(mesh, points)?;
+        complex.check_unconstrained()?;
+        Ok(complex)
+    }
+
+    /// Checks and borrows a mesh and its points, for what exists for those without weights only.
+    ///
+    /// # Errors
+    ///
     /// Returns the errors of [`new`](Self::new), and [`Error::WeightedMesh`].
     pub(crate) fn unweighted(mesh: &'a impl Mesh<D, N>, points: Points<'a, D>) -> Result<Self, Error> {
         let complex = Complex::new(mesh, points)?;
         if complex.weights.is_empty() { Ok(complex) } else { Err(Error::WeightedMesh) }
     }
 
+    /// Checks that the mesh has no constraints.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::ConstrainedMesh`].
+    pub(crate) fn check_unconstrained(&self) -> Result<(), Error> {
+        if self.is_constrained() { Err(Error::ConstrainedMesh) } else { Ok(()) }
+    }
+
     /// Checks and borrows a mesh and its points.
     ///
     /// # Errors
     ///
-    /// [`Error::PointCount`], [`Error::NotFinite`], [`Error::BrokenMesh`], [`Error::BadWeight`], or
-    /// [`Error::ConstrainedMesh`].
+    /// [`Error::PointCount`], [`Error::NotFinite`], [`Error::BrokenMesh`], or [`Error::BadWeight`].
     pub(crate) fn new(mesh: &'a impl Mesh<D, N>, points: Points<'a, D>) -> Result<Self, Error> {
         let (simplices, neighbors, duplicate_of) = (mesh.simplices(), mesh.opposites(), mesh.duplicate_of());
         if points.len() != duplicate_of.len() {
@@ -56,9 +77,6 @@ impl<'a, const D: usize, const N: usize> Complex<'a, D, N> {
         let weights = mesh.weights();
         if let Some(index) = weights.iter().position(|w| !w.is_finite()) {
             return Err(Error::BadWeight { index });
-        }
-        if mesh.has_constraints() {
-            return Err(Error::ConstrainedMesh);
         }
         points.validate_by(Threads::All)?;
         let broken = |reason| Err(Error::BrokenMesh { reason });
@@ -82,9 +100,12 @@ impl<'a, const D: usize, const N: usize> Complex<'a, D, N> {
             return broken("a duplicate is that of a point that does not exist");
         }
         let points = Coordinates::Borrowed(points);
+        let constraints = mesh.constraints();
+        let visible = (!constraints.is_empty()).then(|| visible(simplices, &neighbors, constraints));
         let (simplices, duplicate_of) = (Cow::Borrowed(simplices), Cow::Borrowed(duplicate_of));
-        let mut complex = Complex { points, simplices, neighbors, duplicate_of, weights: Cow::Borrowed(weights) };
-        if !weights.is_empty() && !complex.simplices.is_empty() {
+        let weights = Cow::Borrowed(weights);
+        let mut complex = Complex { points, simplices, neighbors, duplicate_of, weights, visible };
+        if !complex.weights.is_empty() && !complex.simplices.is_empty() {
             complex.hide(hidden(&complex.simplices, &complex.duplicate_of));
         }
         Ok(complex)
@@ -162,6 +183,19 @@ impl<'a, const D: usize, const N: usize> Complex<'a, D, N> {
         (neighbor != NONE).then_some(neighbor as usize)
     }
 
+    /// Returns the simplex opposite vertex `k` of simplex `t`; `None` outside the hull, and across a constrained edge.
+    #[inline(always)]
+    pub(crate) fn visible_across(&self, t: usize, k: usize) -> Option<usize> {
+        let neighbor = self.visible.as_deref().unwrap_or(&self.neighbors)[t][k];
+        (neighbor != NONE).then_some(neighbor as usize)
+    }
+
+    /// Returns whether the mesh has constraints.
+    #[inline(always)]
+    pub(crate) fn is_constrained(&self) -> bool {
+        self.visible.is_some()
+    }
+
     /// Returns the index of the facet that simplices `t` and `u` share, as numbered in `u`; `N` if
     /// there is none.
     #[inline(always)]
@@ -187,4 +221,20 @@ impl<'a, const D: usize, const N: usize> Complex<'a, D, N> {
             vertex => vertex,
         }
     }
+}
+
+/// Returns the neighbours of triangles with [`NONE`] across constrained edges, which are in ascending order.
+fn visible<const N: usize>(simplices: &[[u32; N]], neighbors: &[[u32; N]], constraints: &[[u32; 2]]) -> Vec<[u32; N]> {
+    let rows = parallel::map_ranges(Threads::All, simplices.len(), |range| {
+        let rows = simplices[range.clone()].iter().zip(&neighbors[range]);
+        let visible = |(simplex, neighbors): (&[u32; N], &[u32; N])| {
+            std::array::from_fn(|k| {
+                let [a, b] = [1, 2].map(|i| simplex[(k + i) % N]);
+                let is_constrained = constraints.binary_search(&[a.min(b), a.max(b)]).is_ok();
+                if is_constrained { NONE } else { neighbors[k] }
+            })
+        };
+        rows.map(visible).collect::<Vec<_>>()
+    });
+    parallel::joined(rows)
 }

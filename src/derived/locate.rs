@@ -238,6 +238,9 @@ where
     /// Each step of a walk waits for memory whose address the step before has read. Several walks
     /// take turns, so that they wait at the same time.
     pub(super) fn places(&self, queries: &[[f64; D]], reach: Option<[f64; D]>) -> Result<Option<Vec<Place<D>>>, Error> {
+        if self.complex.is_constrained() {
+            return queries.iter().map(|&query| self.place(query, reach)).collect();
+        }
         let mut places = vec![Place { at: [0.0; D], simplex: 0, beyond: None, on_facet: false }; queries.len()];
         let mut walks = Vec::with_capacity(WALKS);
         let share = queries.len().div_ceil(WALKS).max(1);
@@ -311,6 +314,9 @@ where
 
     /// Walks from a simplex to the place of a query.
     pub(super) fn walk(&self, query: [f64; D], start: usize) -> Result<Place<D>, Error> {
+        if self.complex.is_constrained() {
+            return self.walk_straight(query, start);
+        }
         let mut step = self.first_step(query, start);
         loop {
             let (simplex, neighbors) = self.complex.row(step.simplex);
@@ -328,6 +334,11 @@ where
     #[inline(never)]
     fn place_outside(&self, query: [f64; D], reach: Option<[f64; D]>) -> Result<Place<D>, Error> {
         let start = self.start(query).expect("a query is outside only if there are simplices");
+        if self.complex.is_constrained() {
+            let place = self.walk_straight(query, start)?;
+            let (Some(reach), Some(beyond)) = (reach, place.beyond) else { return Ok(place) };
+            return self.place_near(query, (place.simplex, beyond.facet), reach);
+        }
         let mut step = self.first_step(query, start);
         loop {
             let (simplex, neighbors) = self.complex.row(step.simplex);
@@ -400,8 +411,14 @@ where
         if let Some(k) = exit {
             return self.cross(step, k, neighbors[k]);
         }
+        Ok(Some(self.inside(query, simplex, on_facet)))
+    }
+
+    /// Returns the place of a query that a simplex contains.
+    #[inline(always)]
+    pub(super) fn inside(&self, query: [f64; D], simplex: usize, on_facet: bool) -> Place<D> {
         let simplex = if on_facet { self.first_around(query, simplex) } else { simplex };
-        Ok(Some(Place { at: query, simplex, beyond: None, on_facet }))
+        Place { at: query, simplex, beyond: None, on_facet }
     }
 
     /// Returns the first of some facets that separates a simplex with these corners from a query,
@@ -426,7 +443,7 @@ where
 
     /// Returns the facets that contain a query, which simplex `t` contains, as (simplex, opposite
     /// vertex): all facets of the hull, and those between simplices from both sides.
-    fn facets_at(&self, query: [f64; D], t: usize) -> Vec<(usize, usize)> {
+    pub(super) fn facets_at(&self, query: [f64; D], t: usize) -> Vec<(usize, usize)> {
         let bound = self.bound_with(query);
         let mut facets = Vec::new();
         let mut around = vec![t];
@@ -444,11 +461,11 @@ where
         facets
     }
 
-    /// Returns the facets of the hull that contain a query, which simplex `t` contains, as
+    /// Returns the facets of the hull and the constrained edges that contain a query, which simplex `t` contains, as
     /// (simplex, opposite vertex).
     pub(super) fn hull_facets_at(&self, query: [f64; D], t: usize) -> Vec<(usize, usize)> {
         let mut facets = self.facets_at(query, t);
-        facets.retain(|&(t, k)| self.complex.across(t, k).is_none());
+        facets.retain(|&(t, k)| self.complex.visible_across(t, k).is_none());
         facets
     }
 
@@ -467,7 +484,7 @@ where
 }
 
 /// Why a walk does not end.
-const ENDLESS: Error = Error::BrokenMesh { reason: "a walk over it does not end" };
+pub(super) const ENDLESS: Error = Error::BrokenMesh { reason: "a walk over it does not end" };
 
 /// The number of walks that take turns.
 const WALKS: usize = 16;

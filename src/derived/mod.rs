@@ -21,6 +21,7 @@ mod queries;
 mod sets;
 mod sorted;
 mod sphere;
+mod straight;
 mod surface;
 mod transport;
 mod tree;

@@ -9,16 +9,19 @@
 //! The same holds for power distances and regular triangulations: these are the lower sides of convex hulls, on which a
 //! power distance is a linear function and the walk is that of the simplex method.
 
-use super::{Locator, queries::map_along_curve};
+use super::{Locator, border::nearest_place, queries::map_along_curve};
 use crate::{
     error::Error,
-    geometry::{Euclidean, Geometry, Power},
+    geometry::{Euclidean, Geometry, Power, facet, vector},
     input::points::Points,
     mesh::Csr,
     predicates::Sign,
 };
 use rustc_hash::FxHashSet;
-use std::{cmp::Ordering, collections::BinaryHeap};
+use std::{
+    cmp::{Ordering, Reverse},
+    collections::BinaryHeap,
+};
 
 impl<const D: usize, const N: usize> Locator<'_, D, N>
 where
@@ -45,8 +48,7 @@ where
     /// ```
     pub fn nearest(&self, query: [f64; D]) -> Result<Option<u32>, Error> {
         Points::F64(&[query]).validate()?;
-        let start = self.start_vertex(query);
-        Ok(start.map(|start| self.nearest_from(self.vertex_neighbors(), query, start)))
+        self.start_vertex(query).map(|start| self.nearest_to(query, start)).transpose()
     }
 
     /// Returns the vertex that is nearest to each of many points: see [`nearest`](Self::nearest).
@@ -66,15 +68,14 @@ where
     /// # Ok::<(), gdel::Error>(())
     /// ```
     pub fn nearest_many<'q>(&self, queries: impl Into<Points<'q, D>>) -> Result<Vec<Option<u32>>, Error> {
-        let neighbors = self.vertex_neighbors();
         map_along_curve(queries.into(), self.key, |run| {
             let mut last = None;
             let nearest = |&query: &[f64; D]| {
-                last =
-                    last.or_else(|| self.start_vertex(query)).map(|start| self.nearest_from(neighbors, query, start));
-                last
+                let start = last.or_else(|| self.start_vertex(query));
+                last = start.map(|start| self.nearest_to(query, start)).transpose()?;
+                Ok(last)
             };
-            Ok(run.iter().map(nearest).collect())
+            run.iter().map(nearest).collect()
         })
     }
 
@@ -97,6 +98,10 @@ where
     /// # Ok::<(), gdel::Error>(())
     /// ```
     pub fn nearest_k(&self, query: [f64; D], k: usize) -> Result<Vec<u32>, Error> {
+        Points::F64(&[query]).validate()?;
+        if self.is_searched_around() {
+            return self.nearest_around(query, k);
+        }
         let mut found = Vec::new();
         let Some(first) = self.nearest(query)?.filter(|_| k > 0) else { return Ok(found) };
         let neighbors = self.vertex_neighbors();
@@ -112,6 +117,62 @@ where
             candidates.extend(new.map(|&v| candidate(v)));
         }
         Ok(found)
+    }
+
+    /// Returns the vertex that is nearest to a query, from one that is probably near it.
+    #[inline]
+    pub(super) fn nearest_to(&self, query: [f64; D], start: u32) -> Result<u32, Error> {
+        if self.is_searched_around() {
+            return Ok(self.nearest_around(query, 1)?.first().copied().unwrap_or(start));
+        }
+        Ok(self.nearest_from(self.vertex_neighbors(), query, start))
+    }
+
+    /// Returns whether walks from vertex to vertex may end too early, since edges between nearest vertices are missing.
+    fn is_searched_around(&self) -> bool {
+        self.complex.is_constrained() && !self.complex.simplices.is_empty()
+    }
+
+    /// Returns the `k` vertices that are nearest to a query, in order: those of all simplices that meet the ball around it
+    /// in which they are. These hang together, since ball and hull are convex.
+    fn nearest_around(&self, query: [f64; D], k: usize) -> Result<Vec<u32>, Error> {
+        let complex = &self.complex;
+        let Some(place) = self.place(query, None)?.filter(|_| k > 0) else { return Ok(Vec::new()) };
+        let start = match place.beyond {
+            Some(beyond) => self.nearest_facet(query, (place.simplex, beyond.facet)).0.0,
+            None => place.simplex,
+        };
+        let squared = |p: [f64; D]| vector::squared_norm(vector::times(self.scale, vector::minus(p, query)));
+        let mut found = BinaryHeap::new();
+        let (mut pending, mut seen) = (vec![start], FxHashSet::from_iter([start]));
+        let mut seen_vertices = FxHashSet::default();
+        while let Some(t) = pending.pop() {
+            let simplex = complex.simplices[t];
+            for vertex in simplex.into_iter().filter(|&v| seen_vertices.insert(v)) {
+                found.push(Reverse(Candidate { query, power: self.power(query, vertex), vertex }));
+                if found.len() > k {
+                    found.pop();
+                }
+            }
+            let farthest = found.peek().filter(|_| found.len() == k);
+            let reach = farthest.map_or(f64::INFINITY, |Reverse(farthest)| squared(complex.point(farthest.vertex)));
+            for facet_number in 0..N {
+                let Some(across) = complex.across(t, facet_number).filter(|across| !seen.contains(across)) else {
+                    continue;
+                };
+                let corners = facet(&complex.corners(t), facet_number);
+                let (_, distance) = nearest_place(&corners, query, self.scale);
+                // More than rounding adds: the error of the place is a few units in the last place of the corners' distances.
+                let longest = corners.iter().map(|&p| squared(p)).fold(0.0, f64::max);
+                let is_beyond = distance > reach * (1.0 + 1e-9) + 1e-20 * longest;
+                if !is_beyond {
+                    seen.insert(across);
+                    pending.push(across);
+                }
+            }
+        }
+        // The nearest is the greatest, and so the least of these.
+        Ok(found.into_sorted_vec().into_iter().map(|Reverse(candidate)| candidate.vertex).collect())
     }
 
     /// Returns a vertex that is probably near a point.

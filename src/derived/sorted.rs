@@ -65,6 +65,7 @@ where
                 rank_or_none(complex.duplicate_of[points[rank] as usize], &ranks)
             })),
             weights: Cow::Borrowed(&[]),
+            visible: None,
         };
         Sorted { complex: sorted, points, simplices, places }
     }

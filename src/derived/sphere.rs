@@ -130,7 +130,7 @@ impl<'a> Sphere<'a> {
     /// [`Locator::new`](crate::Locator::new).
     pub fn new(mesh: &'a impl Mesh<3, 4>, points: impl Into<Points3<'a>>) -> Result<Self, Error> {
         let points = points.into();
-        let complex: Complex<'_, 3, 4> = Complex::unweighted(mesh, points)?;
+        let complex: Complex<'_, 3, 4> = Complex::delaunay(mesh, points)?;
         let mut hull = Vec::new();
         for (simplex, neighbors) in complex.simplices.iter().zip(&*complex.neighbors) {
             hull.extend((0..4).filter(|&k| neighbors[k] == NONE).map(|k| facet(simplex, k)));

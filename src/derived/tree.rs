@@ -74,7 +74,7 @@ impl SpanningTree {
     where
         Euclidean: Geometry<D, N>,
     {
-        let complex = Complex::unweighted(mesh, points.into())?;
+        let complex = Complex::delaunay(mesh, points.into())?;
         let compare = |a: &Candidate, b: &Candidate| {
             // Points are looked at in the rare case that rounding leaves the answer open.
             let lengths = match a.length.certain_difference(b.length) {

@@ -65,10 +65,10 @@ pub trait Editable<const D: usize>: Sealed + Sized {
 
 /// Checks that a mesh is a Delaunay triangulation.
 fn check_delaunay<const D: usize, const N: usize>(mesh: &impl Mesh<D, N>) -> Result<(), Error> {
-    match (mesh.weights().is_empty(), mesh.has_constraints()) {
+    match (mesh.weights().is_empty(), mesh.constraints().is_empty()) {
         (false, _) => Err(Error::WeightedMesh),
-        (true, true) => Err(Error::ConstrainedMesh),
-        (true, false) => Ok(()),
+        (true, false) => Err(Error::ConstrainedMesh),
+        (true, true) => Ok(()),
     }
 }
 
@@ -123,7 +123,7 @@ macro_rules! on_host {
                 weights: &[f64],
             ) -> Result<(), Error> {
                 check_count(self, points.len())?;
-                if self.has_constraints() {
+                if !Mesh::constraints(self).is_empty() {
                     return Err(Error::ConstrainedMesh);
                 }
                 // Points of weighted meshes cannot be removed.

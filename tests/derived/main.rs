@@ -5,6 +5,7 @@ mod border;
 mod broken;
 #[path = "../shared/clouds.rs"]
 mod clouds;
+mod constrained;
 mod contours;
 mod evidence;
 mod flat;

@@ -16,7 +16,7 @@ pub fn integer(x: f64) -> BigInt {
     if x < 0.0 { -magnitude } else { magnitude }
 }
 
-fn check<const D: usize, const N: usize>(name: &str, mesh: &impl Mesh<D, N>, points: &[[f64; D]])
+pub fn check<const D: usize, const N: usize>(name: &str, mesh: &impl Mesh<D, N>, points: &[[f64; D]])
 where
     Euclidean: Geometry<D, N>,
 {

@@ -89,6 +89,52 @@ test('rings of points, with a hole', async () => {
   assert.match(new TextDecoder().decode(neigh), /^8 3\n/);
 });
 
+test('places, values and contours inside of boundaries', async () => {
+  const mesh = await delaunay2d(POINTS, { rings: RINGS });
+  // Inside, on the boundary of the hole, in the hole, outside the hull.
+  const queries = [1, 1, 3, 4.5, 4, 4, 20, 20];
+  const { triangles, outside } = await mesh.locate(queries);
+  assert.equal(outside, 1);
+  assert.equal(mesh.constraints.inside[triangles[2]], 0);
+  assert.deepEqual([...(await mesh.nearest(queries)).indices], [0, 4, 4, 2]);
+  const values = Array.from({ length: 9 }, (_, i) => 2 * POINTS[2 * i] - POINTS[2 * i + 1]);
+  for (const method of ['linear', 'laplace', 'sibson']) {
+    const found = await mesh.interpolate(values, queries, { method });
+    assert.deepEqual([...found.values].map((x) => Math.round(1e9 * x) / 1e9), [1, 1.5, NaN, NaN]);
+    assert.equal(found.outside, 2);
+  }
+  const nearest = await mesh.interpolate(values, queries, { outside: 'nearest' });
+  assert.deepEqual([...nearest.values], [1, 1.5, values[4], values[2]]);
+  const grid = await mesh.interpolateGrid(values, { width: 9, height: 9 });
+  assert.equal(grid.values.filter(Number.isNaN).length, 9);
+  // The line y = x + 0.5 without its part in the hole.
+  const heights = Array.from({ length: 9 }, (_, i) => POINTS[2 * i + 1] - POINTS[2 * i]);
+  const [contour] = await mesh.contours(heights, [0.5]);
+  const ends = [...contour.lines].map((v) => contour.vertices[2 * v]).sort((a, b) => a - b);
+  assert.equal(ends[0], 0);
+  assert.ok(ends.every((x) => x <= 3 || x >= 5.5) && ends.includes(3) && ends.includes(5.5), ends);
+});
+
+test('cells end at boundaries', async () => {
+  const mesh = await delaunay2d(POINTS, { rings: RINGS });
+  const { volumes, cells, neighbors } = await mesh.voronoi();
+  assert.ok(Math.abs(volumes.reduce((sum, x) => sum + x) - 72) < 1e-12);
+  // The point in the hole has no cell, and all others end at a boundary.
+  assert.equal(cells[9] - cells[8], 0);
+  for (let i = 0; i < 8; i++) assert.ok(neighbors.slice(cells[i], cells[i + 1]).includes(-1));
+});
+
+test('no value crosses a breakline', async () => {
+  const points = [];
+  for (let x = -4; x <= 4; x++) for (let y = -4; y <= 4; y++) if (x !== 0) points.push(x, y);
+  points.push(0, -4, 0, 4);
+  const count = points.length / 2;
+  const mesh = await delaunay2d(points, { edges: [[count - 2, count - 1]] });
+  const values = Array.from({ length: count }, (_, i) => (points[2 * i] < 0 ? 0 : 1));
+  const found = await mesh.interpolate(values, [0, 0.5, 0.25, 0.5, 3.25, -0.5], { method: 'sibson' });
+  for (const value of found.values) assert.ok(Math.abs(value - 1) < 1e-12);
+});
+
 test('polygons bring their points', async () => {
   const hole = [
     [1, 1],
@@ -231,11 +277,9 @@ test('what needs a Delaunay triangulation says so', async () => {
   const before = canonical(mesh.triangles, 3);
   const needs = /constraints/;
   const values = new Float64Array(9);
-  await rejects(mesh.locate([1, 1]), 'BAD_INPUT', needs);
-  await rejects(mesh.nearest([1, 1]), 'BAD_INPUT', needs);
-  await rejects(mesh.interpolate(values, [1, 1]), 'BAD_INPUT', needs);
-  await rejects(mesh.contours(values, [1]), 'BAD_INPUT', needs);
-  await rejects(mesh.voronoi(), 'BAD_INPUT', needs);
+  for (const method of ['sibson-c1', 'clough-tocher'])
+    await rejects(mesh.interpolate(values, [1, 1], { method }), 'BAD_INPUT', needs);
+  await rejects(mesh.voronoi({ clip: 'box' }), 'BAD_INPUT', needs);
   await rejects(mesh.alphaShape(), 'BAD_INPUT', needs);
   await rejects(mesh.update(POINTS), 'BAD_INPUT', needs);
   await rejects(mesh.insert([1, 1]), 'BAD_INPUT', needs);

@@ -126,7 +126,8 @@ export type Bounds = ArrayLike<number>;
 export interface VoronoiOptions extends TaskOptions {
   /**
    * What the cells are clipped to: nothing, the smallest box that contains all points, their convex
-   * hull, a box, or the convex polygon or polyhedron with some corners, in any order. Default `'none'`.
+   * hull, a box, or the convex polygon or polyhedron with some corners, in any order. Default `'none'`. With
+   * constraints, cells end at the boundaries, and this is to be left out.
    */
   clip?: 'none' | 'box' | 'hull' | Bounds | { corners: Points } | undefined;
 }

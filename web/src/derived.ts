@@ -394,16 +394,10 @@ export async function spanningTree(
   return new SpanningTree(tree, duplicateOf);
 }
 
-/** Returns a source for what any triangulation has, Delaunay or not. */
-const anyMesh = (source: Source): Source => ({
-  ...source,
-  mesh: { ...source.mesh, constraints: undefined },
-});
-
 export async function topology(source: Source, options: TaskOptions | undefined) {
-  return run('topology', anyMesh(source), {}, taskOptions(optionsOf(options)));
+  return run('topology', source, {}, taskOptions(optionsOf(options)));
 }
 
 export async function geometry(source: Source, options: TaskOptions | undefined) {
-  return run('geometry', anyMesh(source), {}, taskOptions(optionsOf(options)));
+  return run('geometry', source, {}, taskOptions(optionsOf(options)));
 }

@@ -77,8 +77,9 @@ export class Mesh2 extends Mesh {
   /** The coordinates x, y, x, y, …: a copy of the input, or its buffer if that was transferred. */
   declare readonly coords: Coordinates;
   /**
-   * What became of the options `edges`, `rings` and `polygons`; null without them. With constraints, `topology`,
-   * `geometry` and files work; what is derived from Delaunay triangulations fails with `BAD_INPUT`, as changes do.
+   * What became of the options `edges`, `rings` and `polygons`; null without them. Interpolated values and cells do not cross
+   * constrained edges, and they and contours end at boundaries. What only a Delaunay triangulation has fails with
+   * `BAD_INPUT`: smooth interpolation, alpha shapes, surfaces, spanning trees, and changes.
    */
   declare readonly constraints: Constrained | null;
   /** The vertices around each vertex of these triangles. */
@@ -119,6 +120,9 @@ export class Mesh2 extends Mesh {
    * Returns the Voronoi diagram of the vertices, with weights their power diagram. The cells of
    * collinear points are segments of their line, unless they are clipped to a box that has an
    * inside.
+   *
+   * With constraints, it is the bounded diagram: cells end at boundaries, at the hull, and at constrained edges that block
+   * the view of their vertex.
    */
   async voronoi(options?: VoronoiOptions): Promise<Voronoi2> {
     const arrays = await voronoi(this._source(), options);

@@ -33,12 +33,6 @@ pub trait Mesh<const D: usize, const N: usize>: gdel::Mesh<D, N> {
     #[doc(hidden)]
     fn surface(&self) -> Cow<'_, [[u32; 3]]>;
 
-    /// Returns the constrained edges.
-    #[doc(hidden)]
-    fn constraints(&self) -> &[[u32; 2]] {
-        &[]
-    }
-
     /// Creates the data of a file from NumPy's arrays.
     #[doc(hidden)]
     fn from_arrays(simplices: Vec<[u32; N]>, adjacency: Option<Vec<[u32; N]>>) -> MeshData<D, N>;
@@ -76,10 +70,6 @@ impl Mesh<2, 3> for Mesh2 {
 
     fn surface(&self) -> Cow<'_, [[u32; 3]]> {
         Cow::Borrowed(&self.triangles)
-    }
-
-    fn constraints(&self) -> &[[u32; 2]] {
-        &self.constraints
     }
 
     fn from_arrays(simplices: Vec<[u32; 3]>, halfedges: Option<Vec<[u32; 3]>>) -> MeshData2 {

@@ -64,6 +64,7 @@ impl<const D: usize> FlatCells<D> {
             neighbors: Cow::Owned(neighbors),
             duplicate_of: radii.mesh.complex.duplicate_of.clone(),
             weights: Cow::Borrowed(&[]),
+            visible: None,
         };
         FlatCells { complex, corners, squared }
     }

@@ -155,7 +155,7 @@ where
     /// [`Error::PointCount`], [`Error::NotFinite`] or [`Error::BrokenMesh`] as for
     /// [`Locator::new`](crate::Locator::new).
     pub fn new<'a>(mesh: &'a impl Mesh<D, N>, points: impl Into<Points<'a, D>>) -> Result<Self, Error> {
-        let given = Complex::unweighted(mesh, points.into())?;
+        let given = Complex::delaunay(mesh, points.into())?;
         let flat = Flat::new(&given)?;
         let radii = Radii::new(Sorted::new(&given), rounding::UNIT);
         let flat = flat.map(|flat| FlatCells::new(&flat, &radii));

@@ -105,7 +105,7 @@ where
         // Which vertex is nearest is found in space.
         let outside = if self.outside == Outside::Linear { Outside::Linear } else { Outside::default() };
         let (values, gradients) = (Cow::Borrowed(&[][..]), OnceLock::new());
-        let inner = Interpolator { locator, values, outside, plane: None, gradients };
+        let inner = Interpolator { locator, values, outside, inside: None, plane: None, gradients };
         let mut state = State::default();
         let query = Query { at, reach, place: locator.place(at, reach)? };
         let is_outside = inner.find_weights(Interpolation::Linear, &query, &mut state)?;

@@ -18,7 +18,7 @@ pub use table::{Grid, WeightTable};
 
 use super::{
     Locator,
-    border::nearest_place,
+    border::{Around, nearest_place},
     flat::{Flat, Shape},
     locate::{Beyond, Place},
     queries::map_along_curve,
@@ -72,6 +72,8 @@ pub struct Interpolator<'a, const D: usize = 3, const N: usize = 4> {
     locator: &'a Locator<'a, D, N>,
     values: Cow<'a, [f64]>,
     outside: Outside,
+    /// Which triangles count, if not all do.
+    inside: Option<&'a [bool]>,
     /// If the points are in a plane of space, locators of their shadows and of themselves within it.
     plane: Option<Box<[Locator<'a, 2, 3>; 2]>>,
     /// The gradients at the points, once they are needed.
@@ -118,7 +120,7 @@ where
             _ => None,
         };
         let (values, outside) = (Cow::Borrowed(values), Outside::default());
-        Ok(Interpolator { locator, values, outside, plane, gradients: OnceLock::new() })
+        Ok(Interpolator { locator, values, outside, inside: None, plane, gradients: OnceLock::new() })
     }
 
     /// Says which value there is outside the hull: by default NaN.
@@ -126,6 +128,38 @@ where
     pub fn outside(mut self, outside: Outside) -> Self {
         self.outside = outside;
         self
+    }
+
+    /// Says which simplices count, one entry per simplex: the others are outside. For [`Outside::Value`] and
+    /// [`Outside::Nearest`] they are like places outside the hull; [`Outside::Linear`] has linear interpolation there.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::ValueCount`] if there are not as many entries as simplices.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use gdel::{Constraints, Fill, Interpolation, Interpolator, Locator, Triangulator};
+    ///
+    /// // A square without its right half.
+    /// let points = [[0.0, 0.0], [2.0, 0.0], [4.0, 0.0], [4.0, 4.0], [2.0, 4.0], [0.0, 4.0f64]];
+    /// let half = Constraints::new().ring(&[0, 1, 4, 5]).fill(Fill::EvenOdd);
+    /// let found = Triangulator::new().constrained2d(&points, &half)?;
+    /// let locator = Locator::new(&found.mesh, &points)?;
+    /// let interpolator = Interpolator::new(&locator, &[0.0, 2.0, 4.0, 4.0, 2.0, 0.0])?.inside(&found.inside)?;
+    /// let found = interpolator.interpolate_many(Interpolation::Linear, &[[1.0, 1.0], [2.0, 1.0], [3.0, 1.0f64]])?;
+    /// assert_eq!((found.values[..2].to_vec(), found.outside), (vec![1.0, 2.0], 1));
+    /// assert!(found.values[2].is_nan());
+    /// # Ok::<(), gdel::Error>(())
+    /// ```
+    pub fn inside(mut self, inside: &'a [bool]) -> Result<Self, Error> {
+        let simplices = self.locator.complex.simplices.len();
+        if inside.len() != simplices {
+            return Err(Error::ValueCount { values: inside.len(), points: simplices });
+        }
+        self.inside = Some(inside);
+        Ok(self)
     }
 
     /// Says which value a vertex has if there are several points with its coordinates: by default that
@@ -302,7 +336,8 @@ where
                 range: "linear, or one by Laplace or Sibson",
             });
         }
-        Ok(())
+        // Gradients would be those of both sides of a constrained edge.
+        if method.is_smooth() { self.locator.complex.check_unconstrained() } else { Ok(()) }
     }
 
     /// Puts the weights at a query into `state`, none where there is a constant. Returns whether it is
@@ -312,8 +347,20 @@ where
         let Some(Place { at, simplex, beyond, on_facet }) = query.place else {
             return self.flat_weights(method, query, state);
         };
+        let (at, simplex, on_facet, is_outside) = match self.inside {
+            Some(inside) if beyond.is_none() && !inside[simplex] => match self.place_inside(inside, query, simplex)? {
+                Some(place) => (place.at, place.simplex, place.on_facet, false),
+                None => (at, simplex, on_facet, true),
+            },
+            _ => (at, simplex, on_facet, false),
+        };
         let State { scratch, weights, simplex: found_in } = state;
         *found_in = simplex;
+        if is_outside && self.outside != Outside::Linear {
+            // The facet does not count.
+            self.weights_outside(query.at, (simplex, 0), weights)?;
+            return Ok(true);
+        }
         let complex = &self.locator.complex;
         let vertices = complex.simplices[simplex];
         if let Some(Beyond { facet: k, near }) = beyond {
@@ -321,15 +368,16 @@ where
                 let (shares, _) = nearest_place(&facet(&complex.corners(simplex), k), at, self.locator.scale);
                 weights.extend(facet(&vertices, k).into_iter().zip(shares));
             } else {
-                self.weights_outside(query.at, (simplex, k), weights);
+                self.weights_outside(query.at, (simplex, k), weights)?;
             }
             return Ok(!near);
         }
         if on_facet && let Some(vertex) = vertices.into_iter().find(|&v| complex.point(v) == at) {
             weights.push((vertex, 1.0));
-            return Ok(false);
+            return Ok(is_outside);
         }
         match method {
+            _ if is_outside => {}
             Interpolation::Linear => {}
             _ => natural::weights(self.locator, method, at, (simplex, on_facet), scratch, weights),
         }
@@ -338,7 +386,26 @@ where
             let shares = barycentric(&complex.corners(simplex), at);
             weights.extend(vertices.into_iter().zip(shares));
         }
-        Ok(false)
+        Ok(is_outside)
+    }
+
+    /// Returns the place of a query in a simplex that counts, if there is one no farther away than coordinates are
+    /// rounded; the query is in simplex `t`, which does not count.
+    fn place_inside(&self, inside: &[bool], query: &Query<D>, t: usize) -> Result<Option<Place<D>>, Error> {
+        let around = query.reach.map(|reach| Around::new(query.at, reach));
+        for at in std::iter::once(query.at).chain(around.iter().flat_map(Around::corners)) {
+            let place = self.locator.walk(at, t)?;
+            let beside = || self.locator.facets_at(at, place.simplex).into_iter().map(|(t, _)| t);
+            let simplex = match place.beyond {
+                None if inside[place.simplex] => Some(place.simplex),
+                None if place.on_facet => beside().find(|&t| inside[t]),
+                _ => None,
+            };
+            if let Some(simplex) = simplex {
+                return Ok(Some(Place { simplex, ..place }));
+            }
+        }
+        Ok(None)
     }
 }
 

@@ -85,7 +85,7 @@ fn find<const D: usize, const N: usize>(
     while let Some(&t) = conflict.get(next) {
         next += 1;
         for k in 0..N {
-            let Some(across) = locator.complex.across(t as usize, k) else { continue };
+            let Some(across) = locator.complex.visible_across(t as usize, k) else { continue };
             place.entry(across as u32).or_insert_with(|| {
                 let in_conflict = Euclidean::in_sphere(&locator.complex.corners(across), query) > 0;
                 in_conflict.then(|| {
@@ -133,7 +133,7 @@ fn measure<T: Real, const D: usize, const N: usize>(
             })
         });
         for k in 0..N {
-            let across = complex.across(t as usize, k);
+            let across = complex.visible_across(t as usize, k);
             let other = across.and_then(|across| *place.get(&(across as u32))?);
             let corners = facet(&corners, k);
             match other {

@@ -1,7 +1,10 @@
 //! Values outside the hull.
 
 use super::{Interpolator, Outside, StolenMeasures};
-use crate::geometry::{Euclidean, Geometry, facet, vector};
+use crate::{
+    error::Error,
+    geometry::{Euclidean, Geometry, facet, vector},
+};
 use rustc_hash::FxHashSet;
 
 impl<const D: usize, const N: usize> Interpolator<'_, D, N>
@@ -10,14 +13,18 @@ where
 {
     /// Appends the weights at a query outside the hull, which facet `k` of simplex `t` sees; none where
     /// there is a constant.
-    pub(super) fn weights_outside(&self, query: [f64; D], (t, k): (usize, usize), weights: &mut Vec<(u32, f64)>) {
+    pub(super) fn weights_outside(
+        &self,
+        query: [f64; D],
+        (t, k): (usize, usize),
+        weights: &mut Vec<(u32, f64)>,
+    ) -> Result<(), Error> {
         let locator = self.locator;
         let simplices = &locator.complex.simplices;
         match self.outside {
             Outside::Value(_) => {}
             Outside::Nearest => {
-                let start = simplices[t][0];
-                weights.push((locator.nearest_from(locator.vertex_neighbors(), query, start), 1.0));
+                weights.push((locator.nearest_to(query, simplices[t][0])?, 1.0));
             }
             Outside::Linear => {
                 let ((t, k), shares) = locator.nearest_facet(query, (t, k));
@@ -40,6 +47,7 @@ where
                 });
             }
         }
+        Ok(())
     }
 
     /// Appends the weights of the change of value along a way, by the gradient at vertex `v` of simplex

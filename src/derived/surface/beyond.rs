@@ -72,6 +72,7 @@ where
             neighbors: Cow::Owned(neighbors),
             duplicate_of: Cow::Borrowed(&complex.duplicate_of),
             weights: Cow::Borrowed(&[]),
+            visible: None,
         };
         Extended { complex, names: [names, &[INFINITY]].concat(), is_inside }
     }

@@ -269,7 +269,7 @@ where
         }
         let points = points.into();
         evidence::check(options, points.len())?;
-        let given = Complex::unweighted(mesh, points)?;
+        let given = Complex::delaunay(mesh, points)?;
         let prepared = Prepared::new(&given)?;
         let stars = prepared.stars();
         let cleaned = Cleaned::new(&prepared, &stars, options);

@@ -79,7 +79,7 @@ impl<const D: usize, const N: usize> Mesh<D, N> for InOrder<'_, N> {
         self.weights
     }
 
-    fn has_constraints(&self) -> bool {
-        false
+    fn constraints(&self) -> &[[u32; 2]] {
+        &[]
     }
 }

@@ -1,5 +1,6 @@
 //! Voronoi diagrams, the duals of Delaunay triangulations, and power diagrams, those of regular triangulations.
 
+mod bounded;
 mod cell;
 mod flat;
 mod frame;
@@ -187,6 +188,31 @@ pub struct Diagram<const D: usize = 3> {
     pub centroids: Vec<[f64; D]>,
 }
 
+impl<const D: usize> Diagram<D> {
+    /// Joins the cells of all points, some of whose vertices are among these.
+    fn new(vertices: Vec<[f64; D]>, cells: impl IntoIterator<Item = Cell<D>>) -> Self {
+        let mut diagram = Diagram { vertices, cells: vec![0], ..Diagram::default() };
+        for cell in cells {
+            let mut index = cell.simplices.clone();
+            for (index, vertex) in index.iter_mut().zip(&cell.vertices) {
+                if *index == NONE {
+                    *index = diagram.vertices.len() as u32;
+                    diagram.vertices.push(*vertex);
+                }
+            }
+            for f in 0..cell.facets.len() as u32 {
+                diagram.facets.push(cell.facets.of(f).iter().map(|&v| index[v as usize]));
+            }
+            diagram.neighbors.extend(&cell.neighbors);
+            diagram.areas.extend(&cell.areas);
+            diagram.cells.push(diagram.neighbors.len());
+            diagram.volumes.push(cell.volume);
+            diagram.centroids.push(cell.centroid);
+        }
+        diagram
+    }
+}
+
 impl<'a, const D: usize, const N: usize> Voronoi<'a, D, N>
 where
     Euclidean: VoronoiShapes<D, N>,
@@ -204,6 +230,7 @@ where
     pub fn new(mesh: &'a impl Mesh<D, N>, points: impl Into<Points<'a, D>>, clip: Clip<'_, D>) -> Result<Self, Error> {
         let points = points.into();
         let mut locator = Locator::new(mesh, points)?;
+        locator.complex.check_unconstrained()?;
         let flat = flat::cells(&locator, &clip)?;
         let frame = points.bounds().and_then(Frame::of);
         let window = if flat.is_some() { Window::All } else { Window::new(clip, frame)? };
@@ -416,25 +443,7 @@ where
     /// # Ok::<(), gdel::Error>(())
     /// ```
     pub fn diagram(&self) -> Diagram<D> {
-        let mut diagram = Diagram { vertices: self.vertices().to_vec(), cells: vec![0], ..Diagram::default() };
-        for cell in self.map_cells(|_, cell| cell.clone()) {
-            let mut index = cell.simplices.clone();
-            for (index, vertex) in index.iter_mut().zip(&cell.vertices) {
-                if *index == NONE {
-                    *index = diagram.vertices.len() as u32;
-                    diagram.vertices.push(*vertex);
-                }
-            }
-            for f in 0..cell.facets.len() as u32 {
-                diagram.facets.push(cell.facets.of(f).iter().map(|&v| index[v as usize]));
-            }
-            diagram.neighbors.extend(&cell.neighbors);
-            diagram.areas.extend(&cell.areas);
-            diagram.cells.push(diagram.neighbors.len());
-            diagram.volumes.push(cell.volume);
-            diagram.centroids.push(cell.centroid);
-        }
-        diagram
+        Diagram::new(self.vertices().to_vec(), self.map_cells(|_, cell| cell.clone()))
     }
 
     /// Finds the cell of point `i`, which is at this place in the worker's block.

@@ -4,13 +4,14 @@ mod sphere;
 
 use crate::{
     clips::{clip_of, corners_of, numbers_of},
+    mesh::inside_of,
     objects::{Thrown, error, get, object, set, signed},
     points::{Coordinates, room},
     task::{OfCaller, Task, coordinates, in_dimension, option},
 };
 use gdel::{
-    AlphaShape, Contours, Csr, Duplicates, Error, Grid, Interpolation, Interpolator, Location, Locator, Mesh2, Mesh3,
-    Outside, Points, SpanningTree, Voronoi,
+    AlphaShape, Constrained2, Contours, Csr, Diagram, Duplicates, Error, Grid, Interpolation, Interpolator, Location,
+    Locator, Mesh, Mesh2, Mesh3, Outside, Points, SpanningTree, Voronoi,
     internals::{
         cpu::edit::Used,
         derived::{SingularEdges, StolenMeasures, VoronoiShapes, singular},
@@ -44,6 +45,14 @@ trait Described<const D: usize, const N: usize>: OfCaller<D, N> {
     /// Returns the centres and the radii of the circumspheres, the volumes, the ratios of the radii
     /// and the angles.
     fn shapes(&self, points: Points<'_, D>) -> Shapes<D>;
+
+    /// Leaves out the simplices outside boundaries, which exist in 2D only.
+    fn keep(&mut self, _inside: Vec<bool>) {}
+
+    /// Returns the bounded Voronoi diagram of a mesh with constraints, which exists in 2D only.
+    fn bounded_voronoi(self, _inside: Vec<bool>, _points: Points<'_, D>) -> Result<Diagram<D>, Error> {
+        Err(Error::ConstrainedMesh)
+    }
 }
 
 /// What the simplices of a mesh are like.
@@ -98,6 +107,18 @@ impl Described<2, 3> for Mesh2 {
 
     fn vertex_simplex(&self) -> Vec<u32> {
         self.vertex_triangle()
+    }
+
+    fn keep(&mut self, inside: Vec<bool>) {
+        let mut found = Constrained2::default();
+        (found.mesh, found.inside) = (std::mem::take(self), inside);
+        *self = found.inside_mesh();
+    }
+
+    fn bounded_voronoi(self, inside: Vec<bool>, points: Points<'_, 2>) -> Result<Diagram<2>, Error> {
+        let mut found = Constrained2::default();
+        (found.mesh, found.inside) = (self, inside);
+        found.bounded_voronoi(points)
     }
 
     fn shapes(&self, points: Points<'_, 2>) -> Shapes<2> {
@@ -287,7 +308,8 @@ where
     let queries = queries_of::<D>(queries)?;
     let values = numbers_of(values)?;
     let locator = locator_of(&task, options)?;
-    let (interpolator, method) = interpolator_of(&locator, &values, options)?;
+    let inside = inside_of(mesh)?;
+    let (interpolator, method) = interpolator_of(&locator, (&values, &inside), options)?;
     let count = Cell::new(0);
     let found = task.in_parts(&queries, 1, |part, found| {
         let part = interpolator.interpolate_many(method, part)?;
@@ -299,10 +321,10 @@ where
     Ok(object([("values", values), ("outside", (count.get() as f64).into())]))
 }
 
-/// Returns an interpolator and its method.
+/// Returns an interpolator and its method. If there are boundaries, `inside` says which triangles are inside.
 fn interpolator_of<'a, const D: usize, const N: usize>(
     locator: &'a Locator<'a, D, N>,
-    values: &'a [f64],
+    (values, inside): (&'a [f64], &'a [bool]),
     options: &JsValue,
 ) -> Result<(Interpolator<'a, D, N>, Interpolation), Thrown>
 where
@@ -327,7 +349,9 @@ where
         // A number, or `nan`.
         _ => Outside::Value(get(options, "outside").as_f64().unwrap_or(f64::NAN)),
     };
-    Ok((Interpolator::new(locator, values)?.duplicates(duplicates)?.outside(outside), method))
+    let interpolator = Interpolator::new(locator, values)?.duplicates(duplicates)?.outside(outside);
+    let interpolator = if inside.contains(&false) { interpolator.inside(inside)? } else { interpolator };
+    Ok((interpolator, method))
 }
 
 /// Returns the interpolated value at the centre of each cell of a grid, with *y* growing from row to row, and how many
@@ -367,7 +391,8 @@ where
     }
     let grid = Grid { size: size.map(|count| count as usize), bounds: [low, high] };
     let locator = locator_of(&task, options)?;
-    let (interpolator, method) = interpolator_of(&locator, &values, options)?;
+    let inside = inside_of(mesh)?;
+    let (interpolator, method) = interpolator_of(&locator, (&values, &inside), options)?;
     let found = interpolator.interpolate_grid(method, &grid)?;
     let values = Float64Array::new_from_slice(&found.values).into();
     Ok(object([("values", values), ("outside", (found.outside as f64).into())]))
@@ -400,7 +425,8 @@ where
     let queries = queries_of::<D>(queries)?;
     let locator = locator_of(&task, options)?;
     let values = vec![0.0; task.points.points::<D>()?.len()];
-    let (interpolator, method) = interpolator_of(&locator, &values, options)?;
+    let inside = inside_of(mesh)?;
+    let (interpolator, method) = interpolator_of(&locator, (&values, &inside), options)?;
     let table = interpolator.weights_many(method, queries.points::<D>()?)?;
     let offsets: Vec<u32> = table.offsets.iter().map(|&offset| offset as u32).collect();
     Ok(object([
@@ -437,11 +463,13 @@ where
     let task = Task::<M>::new::<D, N>(points, mesh, report, "interpolate")?;
     let values = numbers_of(values)?;
     let locator = locator_of(&task, options)?;
-    let (interpolator, _) = interpolator_of(&locator, &values, options)?;
+    let inside = inside_of(mesh)?;
+    let (interpolator, _) = interpolator_of(&locator, (&values, &inside), options)?;
     Ok(coordinates(interpolator.gradients()).into())
 }
 
-/// Returns for each level the contour, or the isosurface in 3D; closed along the hull if that is wanted.
+/// Returns for each level the contour, or the isosurface in 3D; closed along the hull, and along boundaries, if that is
+/// wanted.
 #[wasm_bindgen]
 pub fn contours(
     dimension: u32,
@@ -455,7 +483,7 @@ pub fn contours(
     in_dimension!(dimension, contours_in(points, mesh, values, levels, closed, report))
 }
 
-fn contours_in<M: OfCaller<D, N>, const D: usize, const N: usize>(
+fn contours_in<M: Described<D, N>, const D: usize, const N: usize>(
     points: &JsValue,
     mesh: &JsValue,
     values: &Float64Array,
@@ -466,7 +494,14 @@ fn contours_in<M: OfCaller<D, N>, const D: usize, const N: usize>(
 where
     Euclidean: Geometry<D, N>,
 {
-    let task = Task::<M>::new::<D, N>(points, mesh, report, "contours")?;
+    let mut task = Task::<M>::new::<D, N>(points, mesh, report, "contours")?;
+    let inside = inside_of(mesh)?;
+    if inside.contains(&false) {
+        if inside.len() != task.mesh.simplices().len() {
+            return Err(error("BAD_INPUT", "constraints.inside must have one entry per triangle").into());
+        }
+        task.mesh.keep(inside);
+    }
     let (values, levels) = (numbers_of(values)?, numbers_of(levels)?);
     let contours = Contours::new(&task.mesh, task.points.points::<D>()?, &values)?;
     let found = Array::new();
@@ -490,7 +525,7 @@ where
     Ok(found.into())
 }
 
-/// Returns the Voronoi diagram, clipped as [`clip_of`] says.
+/// Returns the Voronoi diagram, clipped as [`clip_of`] says; with constraints, the bounded one.
 #[wasm_bindgen]
 pub fn voronoi(
     dimension: u32,
@@ -503,7 +538,7 @@ pub fn voronoi(
     in_dimension!(dimension, voronoi_in(points, mesh, clip, bounds, report))
 }
 
-fn voronoi_in<M: OfCaller<D, N>, const D: usize, const N: usize>(
+fn voronoi_in<M: Described<D, N>, const D: usize, const N: usize>(
     points: &JsValue,
     mesh: &JsValue,
     clip: &str,
@@ -516,11 +551,19 @@ where
     let task = Task::<M>::new::<D, N>(points, mesh, report, "voronoi")?;
     let points = task.points.points::<D>()?;
     let used = Used::of(points, task.mesh.duplicate_of());
-    let corners = corners_of::<D>(bounds)?;
-    let clip = clip_of(clip, &corners, used.as_ref().map_or(points, Used::points));
-    let voronoi = Voronoi::new(&task.mesh, points, clip)?;
-    task.report(0.3)?;
-    let diagram = voronoi.diagram();
+    let inside = inside_of(mesh)?;
+    let diagram = if inside.is_empty() && task.mesh.constraints().is_empty() {
+        let corners = corners_of::<D>(bounds)?;
+        let clip = clip_of(clip, &corners, used.as_ref().map_or(points, Used::points));
+        let voronoi = Voronoi::new(&task.mesh, points, clip)?;
+        task.report(0.3)?;
+        voronoi.diagram()
+    } else if matches!(clip, "none" | "hull") {
+        task.mesh.clone().bounded_voronoi(inside, points)?
+    } else {
+        let message = "the cells of a mesh with constraints end at its boundaries: leave out the option clip";
+        return Err(error("BAD_INPUT", message).into());
+    };
     task.report(0.9)?;
     Ok(object([
         ("vertices", coordinates(&diagram.vertices).into()),

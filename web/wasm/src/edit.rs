@@ -27,7 +27,7 @@ use crate::{
         d2::mesh2,
         d3::{Outputs, mesh3},
     },
-    mesh::{CallerMesh, property},
+    mesh::{CallerMesh, inside_of, property},
     objects::{Thrown, error, get, object, set, signed},
     points::Coordinates,
     run::reporting,
@@ -194,8 +194,7 @@ pub fn refine(points: JsValue, mesh: &JsValue, options: &JsValue) -> Result<JsVa
     let mut caller = CallerMesh::<3, 1>::new(mesh, "triangles", "halfedges")?;
     let mut found = Constrained2::default();
     found.segments = caller.constraints.segments.take().unwrap_or_default();
-    let inside = property::<Uint8Array>(&get(mesh, "constraints"), "inside")?.map(|inside| inside.to_vec());
-    found.inside = inside.unwrap_or_default().into_iter().map(|inside| inside != 0).collect();
+    found.inside = inside_of(mesh)?;
     found.mesh = Mesh2::from(caller);
     let number = |name: &str| get(options, name).as_f64();
     let sizes = property::<Float64Array>(options, "sizes")?.map(|sizes| sizes.to_vec());

@@ -50,6 +50,13 @@ impl CallerConstraints {
     }
 }
 
+/// Returns whether each triangle is inside the boundaries of the constraints; nothing without constraints.
+#[cfg(any(feature = "edit", feature = "derived"))]
+pub(crate) fn inside_of(mesh: &JsValue) -> Result<Vec<bool>, Thrown> {
+    let inside = property::<js_sys::Uint8Array>(&get(mesh, "constraints"), "inside")?.map(|inside| inside.to_vec());
+    Ok(inside.unwrap_or_default().into_iter().map(|inside| inside != 0).collect())
+}
+
 impl<const N: usize, const H: usize> CallerMesh<N, H> {
     /// Copies the arrays of `mesh`, of which those of simplices and neighbors have these names.
     pub(crate) fn new(mesh: &JsValue, simplices: &str, neighbors: &str) -> Result<Self, Thrown> {
