@@ -52,9 +52,7 @@ class Mesh:
     def interpolate(
         self,
         points: Points,
-        values: Floats,
-        gradients: Floats | None,
-        inside: npt.NDArray[np.bool_] | None,
+        values: tuple[Floats, Floats | None, npt.NDArray[np.bool_] | None],
         queries: Points,
         method: tuple[str, str, float, str],
     ) -> Floats: ...

@@ -141,7 +141,7 @@ class Interpolator:
         slopes = None if gradients is None else np.ascontiguousarray(gradients)
         method = (options.method, options.outside, fill, options.duplicates)
         inside = self.tri.inside if isinstance(self.tri, ConstrainedDelaunay) else None
-        return state.mesh.interpolate(state.points, values, slopes, inside, queries, method)
+        return state.mesh.interpolate(state.points, (values, slopes, inside), queries, method)
 
 
 def _parts(array: npt.NDArray[Any]) -> list[npt.NDArray[Any]]:

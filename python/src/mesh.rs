@@ -15,6 +15,10 @@ use gdel::{Error, Mesh2, Mesh3, Points, internals::geometry::Euclidean};
 use numpy::{PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::{exceptions::PyValueError, prelude::*, types::PyDict};
 
+/// Values, their gradients, and which simplices count.
+type ValuesArgument<'py> =
+    (PyReadonlyArray1<'py, f64>, Option<PyReadonlyArray2<'py, f64>>, Option<PyReadonlyArray1<'py, bool>>);
+
 /// A mesh of either dimension, which does not change any more.
 pub(crate) enum Either {
     Two(Data<Mesh2, 2, 3>),
@@ -257,21 +261,21 @@ impl Mesh {
         in_dimension!(self, queries::gradients(py, &input, values.as_slice()?, duplicates, self.threads))
     }
 
-    /// The interpolated value at each query; `inside` says which simplices count, if not all do.
-    #[pyo3(signature = (points, values, gradients, inside, queries, method))]
+    /// The interpolated value at each query. With the values come their gradients, if these are known, and which simplices
+    /// count, if not all do.
+    #[pyo3(signature = (points, values, queries, method))]
     fn interpolate<'py>(
         &self,
         py: Python<'py>,
         points: &Bound<'py, PyAny>,
-        values: PyReadonlyArray1<'py, f64>,
-        gradients: Option<PyReadonlyArray2<'py, f64>>,
-        inside: Option<PyReadonlyArray1<'py, bool>>,
+        values: ValuesArgument<'py>,
         queries: &Bound<'py, PyAny>,
         method: (String, String, f64, String),
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let (input, queries) = (Input::new(points)?, Input::new(queries)?);
         let (interpolation, outside, fill, duplicates) = method;
         let method = Method::new(&interpolation, &outside, fill, &duplicates)?;
+        let (values, gradients, inside) = values;
         let gradients = gradients.as_ref().map(|gradients| gradients.as_slice()).transpose()?;
         let inside = inside.as_ref().map(|inside| inside.as_slice()).transpose()?;
         let values = Values { values: values.as_slice()?, gradients, inside };
