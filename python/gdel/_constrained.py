@@ -68,8 +68,8 @@ class ConstrainedDelaunay(Delaunay):
     The triangulation is unique, whatever the order of the segments. One that leads through a point is two segments
     there, exactly. Segments may overlap, and may be given several times; those whose ends are equal are ignored.
 
-    Interpolated values do not cross constrained edges, and end at boundaries. What only a Delaunay triangulation has raises
-    `ValueError`: smooth interpolation, `Voronoi`, alpha shapes, surfaces, spanning trees, and changes.
+    Interpolated values do not cross constrained edges, and end at boundaries. What only a Delaunay triangulation has
+    raises `ValueError`: smooth interpolation, `Voronoi`, alpha shapes, surfaces, spanning trees, and changes.
 
     >>> square, hole = [(0, 0), (9, 0), (9, 9), (0, 9)], [(3, 3), (6, 3), (6, 6), (3, 6)]
     >>> tri = ConstrainedDelaunay(None, polygons=[[square, hole]])

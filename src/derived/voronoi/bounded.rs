@@ -24,6 +24,7 @@ use crate::{
     parallel::{self, Threads},
 };
 use rustc_hash::{FxHashMap, FxHashSet};
+use std::ops::Range;
 
 /// The name of the edge of a part that is no edge of the cell: another part is beyond it.
 const SEAM: u32 = NONE - 1;
@@ -135,8 +136,8 @@ impl Sites<'_> {
             while start < sector.corners.len() {
                 let end = self.part_end(v, &sector, start);
                 let part = self.part(v, &sector, start..end);
-                let corners = part.vertices();
-                let names: Vec<u32> = part.names().collect();
+                let corners = part.polygon.vertices();
+                let names: Vec<u32> = part.polygon.names().collect();
                 // From the site, if that is a corner.
                 let squared = |&k: &usize| vector::squared_norm(corners[k]);
                 let first = (0..corners.len()).min_by(|j, k| squared(j).total_cmp(&squared(k))).unwrap_or(0);
@@ -193,34 +194,34 @@ impl Sites<'_> {
     }
 
     /// Returns the part of a cell between the first edge of a sector's triangles and the last one, relative to the site.
-    fn part(&self, v: u32, sector: &Sector, part: std::ops::Range<usize>) -> Polygon<2> {
+    fn part(&self, v: u32, sector: &Sector, range: Range<usize>) -> Part {
         let site = self.complex.point(v);
         let away = |w: u32| vector::minus(self.complex.point(w), site);
-        let mut polygon = Polygon::default();
-        polygon.reset(self.bounds.map(|corner| vector::minus(corner, site)), NONE);
+        let mut part = Part::new(self.bounds.map(|corner| vector::minus(corner, site)));
         if !sector.is_full {
             // A seam, unless there is nothing inside beyond the wall.
             let ends_there = |place: usize, (t, k): Corner, opposite: usize| {
                 let is_wall = place == 0 || place == sector.corners.len();
                 if is_wall && !self.is_between(t, (k + opposite) % 3) { NONE } else { SEAM }
             };
-            let [from, to] = [part.start, part.end].map(|place| away(sector.around[place]));
-            let name = ends_there(part.start, sector.corners[part.start], 2);
-            polygon.halve([from[1], -from[0]], 0.0, name);
-            let name = ends_there(part.end, sector.corners[part.end - 1], 1);
-            polygon.halve([-to[1], to[0]], 0.0, name);
+            let [from, to] = [range.start, range.end].map(|place| away(sector.around[place]));
+            let name = ends_there(range.start, sector.corners[range.start], 2);
+            part.halve([from[1], -from[0]], 0.0, name);
+            let name = ends_there(range.end, sector.corners[range.end - 1], 1);
+            part.halve([-to[1], to[0]], 0.0, name);
         }
-        for &w in self.neighbors(v, sector, &part) {
-            polygon.halve(away(w), 0.5 * vector::squared_norm(away(w)), w);
+        for &w in self.neighbors(v, sector, &range) {
+            part.halve(away(w), 0.5 * vector::squared_norm(away(w)), w);
         }
         let mut walls = FxHashSet::default();
-        while self.cut_off(site, &sector.corners[part.clone()], &mut polygon, &mut walls) {}
-        polygon
+        while self.cut_off(site, &sector.corners[range.clone()], &mut part, &mut walls) {}
+        part.sharpen();
+        part
     }
 
     /// Returns the neighbours of a vertex whose bisectors can bound a part of its cell: those in the sector that are less than
     /// a right angle from the part. Others are farther from it than it reaches, or behind a wall.
-    fn neighbors<'s>(&self, v: u32, sector: &'s Sector, part: &std::ops::Range<usize>) -> &'s [u32] {
+    fn neighbors<'s>(&self, v: u32, sector: &'s Sector, part: &Range<usize>) -> &'s [u32] {
         let around = &sector.around;
         if sector.is_full {
             return &around[1..];
@@ -234,19 +235,13 @@ impl Sites<'_> {
     }
 
     /// Cuts a part off at a wall that crosses it and is none of `walls`, to which it is added. Returns whether there was one.
-    fn cut_off(
-        &self,
-        site: [f64; 2],
-        corners: &[Corner],
-        polygon: &mut Polygon<2>,
-        walls: &mut FxHashSet<Corner>,
-    ) -> bool {
+    fn cut_off(&self, site: [f64; 2], corners: &[Corner], part: &mut Part, walls: &mut FxHashSet<Corner>) -> bool {
         let mut pending = corners.to_vec();
         let mut seen: FxHashSet<usize> = corners.iter().map(|&(t, _)| t).collect();
         while let Some((t, k)) = pending.pop() {
             let simplex = self.complex.simplices[t];
             let ends = [1, 2].map(|i| vector::minus(self.complex.point(simplex[(k + i) % 3]), site));
-            let Some([from, to]) = within(polygon, ends) else { continue };
+            let Some([from, to]) = part.shares_of(ends) else { continue };
             match self.across(t, k) {
                 Some(across) if seen.insert(across) => {
                     let entry = self.complex.facet_towards(across, t);
@@ -259,7 +254,7 @@ impl Sites<'_> {
                     let normal = [along[1], -along[0]];
                     let offset = vector::dot(ends[0], normal);
                     let away = if offset < 0.0 { -1.0 } else { 1.0 };
-                    polygon.halve(vector::times(away, normal), away * offset, NONE);
+                    part.halve(vector::times(away, normal), away * offset, NONE);
                     return true;
                 }
                 None => {}
@@ -290,26 +285,63 @@ fn in_order(sectors: Vec<Sector>) -> Vec<Sector> {
     ordered
 }
 
-/// Returns which shares of a segment are within a convex polygon, up to rounding; `None` if the polygon is all on one side of
-/// an edge that the segment is on the other side of.
-fn within(polygon: &Polygon<2>, [from, to]: [[f64; 2]; 2]) -> Option<[f64; 2]> {
-    let corners = polygon.vertices();
-    let (mut first, mut last) = (f64::NEG_INFINITY, f64::INFINITY);
-    for (k, &p) in corners.iter().enumerate() {
-        let edge = vector::minus(corners[(k + 1) % corners.len()], p);
-        let value = |q: [f64; 2]| vector::cross2d(edge, vector::minus(q, p));
-        let (at_from, at_to) = (value(from), value(to));
-        if at_from < 0.0 && at_to < 0.0 {
-            return None;
+/// A convex part of a cell, relative to the site.
+struct Part {
+    polygon: Polygon<2>,
+    /// The half-planes that it is the intersection of, as x·normal ≤ offset, and the names of their edges.
+    halves: Vec<([f64; 2], f64, u32)>,
+}
+
+impl Part {
+    /// Returns a box.
+    fn new([low, high]: [[f64; 2]; 2]) -> Self {
+        let mut polygon = Polygon::default();
+        polygon.reset([low, high], NONE);
+        let sides = [([-1.0, 0.0], -low[0]), ([0.0, -1.0], -low[1]), ([1.0, 0.0], high[0]), ([0.0, 1.0], high[1])];
+        Part { polygon, halves: sides.map(|(normal, offset)| (normal, offset, NONE)).into() }
+    }
+
+    /// Keeps what is in a half-plane. The edge along its border has this name.
+    fn halve(&mut self, normal: [f64; 2], offset: f64, name: u32) {
+        self.polygon.halve(normal, offset, name);
+        self.halves.push((normal, offset, name));
+    }
+
+    /// Returns which shares of a segment are in the part, up to rounding; `None` if there are none.
+    ///
+    /// The half-planes say that, since edges of the polygon may be so short that rounding makes their directions.
+    fn shares_of(&self, [from, to]: [[f64; 2]; 2]) -> Option<[f64; 2]> {
+        let (mut first, mut last) = (f64::NEG_INFINITY, f64::INFINITY);
+        for &(normal, offset, _) in &self.halves {
+            let [at_from, at_to] = [from, to].map(|p| vector::dot(p, normal) - offset);
+            if at_from > 0.0 && at_to > 0.0 {
+                return None;
+            }
+            let share = at_from / (at_from - at_to);
+            if at_from > at_to {
+                first = share.max(first);
+            } else if at_from < at_to {
+                last = share.min(last);
+            }
         }
-        let share = at_from / (at_from - at_to);
-        if at_from < at_to {
-            first = share.max(first);
-        } else if at_from > at_to {
-            last = share.min(last);
+        (first <= last && first <= 1.0 && last >= 0.0).then_some([first, last])
+    }
+
+    /// Cuts the part out of a box of its own size, since places on edges of a much larger one are less precise.
+    fn sharpen(&mut self) {
+        let corners = self.polygon.vertices();
+        let extreme = |f: fn(f64, f64) -> f64| {
+            let all = corners.iter().copied().reduce(|a, b| [f(a[0], b[0]), f(a[1], b[1])]);
+            all.unwrap_or([0.0; 2])
+        };
+        let (low, high) = (extreme(f64::min), extreme(f64::max));
+        let margin = vector::minus(high, low).into_iter().fold(0.0, f64::max);
+        let around = [low.map(|x| x - margin), high.map(|x| x + margin)];
+        self.polygon.reset(around, NONE);
+        for &(normal, offset, name) in &self.halves {
+            self.polygon.halve(normal, offset, name);
         }
     }
-    (first <= last && first <= 1.0 && last >= 0.0).then_some([first, last])
 }
 
 /// An edge of a cell, relative to its site.

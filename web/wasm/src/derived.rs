@@ -11,7 +11,7 @@ use crate::{
 };
 use gdel::{
     AlphaShape, Constrained2, Contours, Csr, Diagram, Duplicates, Error, Grid, Interpolation, Interpolator, Location,
-    Locator, Mesh, Mesh2, Mesh3, Outside, Points, SpanningTree, Voronoi,
+    Locator, Mesh2, Mesh3, Outside, Points, SpanningTree, Voronoi,
     internals::{
         cpu::edit::Used,
         derived::{SingularEdges, StolenMeasures, VoronoiShapes, singular},
@@ -550,21 +550,22 @@ where
 {
     let task = Task::<M>::new::<D, N>(points, mesh, report, "voronoi")?;
     let points = task.points.points::<D>()?;
-    let used = Used::of(points, task.mesh.duplicate_of());
     let inside = inside_of(mesh)?;
     let diagram = if inside.is_empty() && task.mesh.constraints().is_empty() {
+        let used = Used::of(points, task.mesh.duplicate_of());
         let corners = corners_of::<D>(bounds)?;
         let clip = clip_of(clip, &corners, used.as_ref().map_or(points, Used::points));
         let voronoi = Voronoi::new(&task.mesh, points, clip)?;
         task.report(0.3)?;
-        voronoi.diagram()
+        let diagram = voronoi.diagram();
+        task.report(0.9)?;
+        diagram
     } else if matches!(clip, "none" | "hull") {
-        task.mesh.clone().bounded_voronoi(inside, points)?
+        task.mesh.bounded_voronoi(inside, points)?
     } else {
         let message = "the cells of a mesh with constraints end at its boundaries: leave out the option clip";
         return Err(error("BAD_INPUT", message).into());
     };
-    task.report(0.9)?;
     Ok(object([
         ("vertices", coordinates(&diagram.vertices).into()),
         ("facetOffsets", offsets(&diagram.facets.offsets)),
