@@ -100,7 +100,10 @@ test('places, values and contours inside of boundaries', async () => {
   const values = Array.from({ length: 9 }, (_, i) => 2 * POINTS[2 * i] - POINTS[2 * i + 1]);
   for (const method of ['linear', 'laplace', 'sibson']) {
     const found = await mesh.interpolate(values, queries, { method });
-    assert.deepEqual([...found.values].map((x) => Math.round(1e9 * x) / 1e9), [1, 1.5, NaN, NaN]);
+    assert.deepEqual(
+      [...found.values].map((x) => Math.round(1e9 * x) / 1e9),
+      [1, 1.5, NaN, NaN],
+    );
     assert.equal(found.outside, 2);
   }
   const nearest = await mesh.interpolate(values, queries, { outside: 'nearest' });
@@ -131,7 +134,9 @@ test('no value crosses a breakline', async () => {
   const count = points.length / 2;
   const mesh = await delaunay2d(points, { edges: [[count - 2, count - 1]] });
   const values = Array.from({ length: count }, (_, i) => (points[2 * i] < 0 ? 0 : 1));
-  const found = await mesh.interpolate(values, [0, 0.5, 0.25, 0.5, 3.25, -0.5], { method: 'sibson' });
+  const found = await mesh.interpolate(values, [0, 0.5, 0.25, 0.5, 3.25, -0.5], {
+    method: 'sibson',
+  });
   for (const value of found.values) assert.ok(Math.abs(value - 1) < 1e-12);
 });
 
