@@ -59,8 +59,7 @@ export { delaunaySphere, SphereMesh, type SphereOptions, SphereVoronoi } from '.
 export type { ExactCounts, GpuStats, Round, SplayStats, UpdateStats } from './stats.js';
 export { delaunay2dSync, delaunay3dSync, load2d, load3d, loadConstraints } from './sync.js';
 /** @internal */
-export { runTin } from './terrain.js';
-/** @internal */
+export { runTin, write } from './terrain.js';
 export {
   type GenerateOptions,
   generate,
@@ -70,7 +69,6 @@ export {
   readShapes,
   verify,
   verify2d,
-  write,
 } from './tools.js';
 export { createTriangulator, delaunay2d, delaunay3d, Triangulator } from './triangulator.js';
 export type {

@@ -25,3 +25,6 @@ export async function runTin(
   const args = thrown(() => tinArgs(copy, given as object));
   return runShared(moduleEdit, 'tin', args, task);
 }
+
+/** @internal */
+export { write } from './tools.js';
