@@ -96,7 +96,7 @@ test('places, values and contours inside of boundaries', async () => {
   const { triangles, outside } = await mesh.locate(queries);
   assert.equal(outside, 1);
   assert.equal(mesh.constraints.inside[triangles[2]], 0);
-  assert.deepEqual([...(await mesh.nearest(queries)).indices], [0, 4, 4, 2]);
+  assert.deepEqual([...(await mesh.nearest(queries))], [0, 4, 4, 2]);
   const values = Array.from({ length: 9 }, (_, i) => 2 * POINTS[2 * i] - POINTS[2 * i + 1]);
   for (const method of ['linear', 'laplace', 'sibson']) {
     const found = await mesh.interpolate(values, queries, { method });
