@@ -26,4 +26,5 @@ mod refining;
 mod regular;
 mod threads;
 mod tin;
+mod trackers;
 mod typescript;

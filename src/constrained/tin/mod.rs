@@ -68,7 +68,7 @@ impl TinOptions {
 /// use gdel::{Constraints, TinOptions, Triangulator};
 ///
 /// // A valley, by a hundred points.
-/// let points: Vec<[f64; 3]> = (0..100).map(|i| (i % 10, i / 10)).map(|(x, y)| [x, y, (5 - x).abs()].map(f64::from)).collect();
+/// let points: Vec<[f64; 3]> = (0..100i32).map(|i| [i % 10, i / 10, (5 - i % 10).abs()].map(f64::from)).collect();
 /// let mut options = TinOptions::default();
 /// options.max_error = 0.1;
 /// let tin = Triangulator::new().tin(&points, &Constraints::new(), &options)?;
