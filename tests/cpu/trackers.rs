@@ -115,20 +115,6 @@ fn poly2tri() {
     // Issue 15: quadrilaterals with edges that are near each other in direction.
     check_ring("15a", &[[-10.0, -10.6426], [-28.3133, -5.98394], [19.8795, 21.6466], [18.4337, -5.02008]]);
     check_ring("15b", &[[-4.61211, -11.3371], [-44.477, -3.90043], [25.2674, 20.9521], [23.8216, -5.71459]]);
-    // Issue 18: a polygon that nearly touches itself.
-    check_ring(
-        "18",
-        &[
-            [1033.0, 309.0],
-            [1032.0, 309.14935064935065],
-            [1032.0, 331.55555555555617],
-            [1031.9802955665025, 332.0],
-            [968.0, 332.0],
-            [968.0, 318.70779220779224],
-            [879.0, 332.0],
-            [1024.0, 512.0],
-        ],
-    );
     // The fork by jhasse, issue 10: corners that differ in the last bits.
     check_ring(
         "10",
