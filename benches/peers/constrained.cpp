@@ -1,6 +1,7 @@
 // Constrained Delaunay triangulations of points and segments by CGAL, with exact predicates, and by CDT:
 // `constrained POINTS SEGMENTS`, raw little-endian pairs of doubles and of unsigned 32-bit numbers. Prints one JSON object
-// per library; "plain" are the seconds for the points alone, "constrained" those for both.
+// per library; "plain" are the seconds for the points alone, "constrained" those for both. Compiled with -lmpfr -lgmp, and
+// with the headers of CDT (github.com/artem-ogre/CDT, CDT/include) in the include path.
 
 #include <CDT.h>
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>

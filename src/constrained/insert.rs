@@ -145,34 +145,6 @@ impl Turn {
 /// An error of the program or of the mesh: a way that should be there is not.
 pub(super) struct Lost;
 
-/// Finds how a segment leaves one of its ends, and which: the first, unless that has many triangles. Then it turns
-/// around both at once, so that it takes no longer than around the one with fewer.
-fn way(mesh: &Marked<'_>, [a, b]: [u32; 2]) -> Result<(Way, usize), Lost> {
-    let mut first = Turn::new(mesh, a, b);
-    for _ in 0..FEW {
-        if let Some(way) = first.step(mesh) {
-            return Ok((way, 0));
-        }
-    }
-    let mut turns = [first, Turn::new(mesh, b, a)];
-    while turns[0].at != NONE || turns[1].at != NONE {
-        for (end, turn) in turns.iter_mut().enumerate() {
-            if let Some(way) = turn.step(mesh) {
-                return Ok((way, end));
-            }
-        }
-    }
-    Err(Lost)
-}
-
-/// Returns a half-edge between two vertices, or [`NONE`] if there is none.
-pub(super) fn edge_between(mesh: &Marked<'_>, ends: [u32; 2]) -> u32 {
-    match way(mesh, ends) {
-        Ok((Way::Along(to, e), end)) if to == ends[1 - end] => e,
-        _ => NONE,
-    }
-}
-
 impl<'m, 'a> Inserter<'m, 'a> {
     pub(super) fn new(mesh: &'m mut Marked<'a>) -> Self {
         Inserter { mesh, inserted: Inserted::default(), cavity: Cavity::default() }
@@ -185,11 +157,12 @@ impl<'m, 'a> Inserter<'m, 'a> {
     /// Inserts the segment between two different vertices.
     pub(super) fn insert(&mut self, segment: u32, mut ends: [u32; 2]) -> Result<(), Lost> {
         while ends[0] != ends[1] {
-            let (way, end) = way(self.mesh, ends)?;
+            let (way, end) = self.way(ends)?;
             let from = ends[end];
             let to = match way {
                 Way::Along(to, e) => {
-                    self.mark(segment, [from, to], e);
+                    self.mesh.mark(e);
+                    self.inserted.pieces.push(([from.min(to), from.max(to)], segment));
                     to
                 }
                 Way::Through(e) => self.cross(segment, e, ends[1 - end])?,
@@ -199,10 +172,24 @@ impl<'m, 'a> Inserter<'m, 'a> {
         Ok(())
     }
 
-    /// Marks half-edge `e` between two vertices as a piece of a segment.
-    pub(super) fn mark(&mut self, segment: u32, [from, to]: [u32; 2], e: u32) {
-        self.mesh.mark(e);
-        self.inserted.pieces.push(([from.min(to), from.max(to)], segment));
+    /// Finds how the segment leaves one of its ends, and which: the first, unless that has many triangles. Then it turns
+    /// around both at once, so that it takes no longer than around the one with fewer.
+    fn way(&self, [a, b]: [u32; 2]) -> Result<(Way, usize), Lost> {
+        let mut first = Turn::new(self.mesh, a, b);
+        for _ in 0..FEW {
+            if let Some(way) = first.step(self.mesh) {
+                return Ok((way, 0));
+            }
+        }
+        let mut turns = [first, Turn::new(self.mesh, b, a)];
+        while turns[0].at != NONE || turns[1].at != NONE {
+            for (end, turn) in turns.iter_mut().enumerate() {
+                if let Some(way) = turn.step(self.mesh) {
+                    return Ok((way, end));
+                }
+            }
+        }
+        Err(Lost)
     }
 
     /// Follows a segment from the vertex where half-edge `e` starts through the triangle of `e`, up to the next vertex

@@ -34,7 +34,7 @@ use crate::{
     options::Options,
     parallel::{self, Threads},
 };
-use insert::{Inserted, Inserter, Lost, edge_between};
+use insert::{Inserted, Inserter, Lost};
 pub use refine::{RefineLeft, RefineOptions, RefineStats, Refined2, Size};
 use split::Split;
 pub use tin::{Tin, TinOptions, TinStats, tin};
@@ -412,22 +412,14 @@ fn insert_all(mesh: &mut Mesh2, points: Points2<'_>, segments: &[[u32; 2]]) -> R
     let start = |v: u32| marked.start(v);
     let mut keyed: Vec<u64> = proper.clone().map(|(i, &[a, b])| u64::from(start(a).min(start(b))) << 32 | i).collect();
     parallel::sort_keyed(Threads::All, &mut keyed);
-    // Most segments of real data are edges already. All threads look for these, which is mostly waiting for memory.
-    let edges = parallel::joined(parallel::map_ranges(Threads::All, keyed.len(), |range| {
-        keyed[range].iter().map(|&key| edge_between(&marked, segments[key as u32 as usize])).collect()
-    }));
-    let near = keyed.into_iter().map(|key| key as u32).zip(edges);
+    let near = keyed.into_iter().map(|key| key as u32);
     let lost = |_: Lost| Error::BrokenMesh { reason: "a segment leads nowhere" };
-    let mut inserter = Inserter::new(&mut marked);
-    near.clone().filter(|&(_, e)| e != NONE).for_each(|(i, e)| inserter.mark(i, segments[i as usize], e));
-    let others = near.filter(|&(_, e)| e == NONE).map(|(i, _)| i);
-    let mut inserted = insert_in_order(inserter, segments, others).map_err(lost)?;
+    let mut inserted = insert_in_order(&mut marked, segments, near).map_err(lost)?;
     if !inserted.crossings.is_empty() {
         // Which ones cross those before them depends on the order: in that of the input, anew.
         marked.unmark_all();
         marked.flip_pending();
-        let inserter = Inserter::new(&mut marked);
-        inserted = insert_in_order(inserter, segments, proper.map(|(i, _)| i as u32)).map_err(lost)?;
+        inserted = insert_in_order(&mut marked, segments, proper.map(|(i, _)| i as u32)).map_err(lost)?;
         return Err(Unconstrained::Crossings(crossings(inserted)));
     }
     marked.restore(mesh);
@@ -435,10 +427,11 @@ fn insert_all(mesh: &mut Mesh2, points: Points2<'_>, segments: &[[u32; 2]]) -> R
 }
 
 fn insert_in_order(
-    mut inserter: Inserter<'_, '_>,
+    marked: &mut Marked<'_>,
     segments: &[[u32; 2]],
     order: impl Iterator<Item = u32>,
 ) -> Result<Inserted, Lost> {
+    let mut inserter = Inserter::new(marked);
     for i in order {
         inserter.insert(i, segments[i as usize])?;
     }
