@@ -1,6 +1,6 @@
 //! Greedy insertion: the point that is farthest above or below the surface becomes a vertex, until none is too far.
 
-use super::{TinOptions, heights::Face, places::Places};
+use super::{TinOptions, TinStats, heights::Face, places::Places};
 use crate::{
     constrained::{
         Constrained2,
@@ -54,22 +54,17 @@ pub(super) struct Greedy<'a> {
     worst: Vec<Worst>,
     queue: BinaryHeap<Entry>,
     moving: Vec<Moving>,
-    /// The constraint, by its place in those of the mesh at the start, that each piece is a part of; behind these, edges of
-    /// the hull.
-    parents: Vec<u32>,
-    constraints: usize,
+    /// Whether each piece is a part of a constraint; the others are edges of the hull.
+    is_constraint: Vec<bool>,
     max_error: f64,
     threads: Threads,
     /// The points that have become vertices, in that order.
     pub(super) inserted: Vec<u32>,
-    /// The number of places in triangles that do not count.
-    pub(super) outside: usize,
-    /// Whether more vertices were needed than allowed.
-    pub(super) limited: bool,
+    pub(super) stats: TinStats,
 }
 
 impl<'a> Greedy<'a> {
-    /// Starts with a mesh, whose `vertices` have heights.
+    /// Starts with a mesh, whose `vertices` have heights, and the statistics so far.
     ///
     /// # Errors
     ///
@@ -79,15 +74,16 @@ impl<'a> Greedy<'a> {
         start: &Constrained2,
         vertices: &[[f64; 3]],
         places: &'a Places,
+        stats: TinStats,
     ) -> Result<Self, Error> {
         let from_above = vertices.iter().map(|&[x, y, _]| [x, y]).collect();
         let mut mesh = Growing::new(&start.mesh, &start.inside, from_above)?;
         mesh.prepare_for(&places.places);
-        let constraints = start.mesh.constraints.len();
+        let mut is_constraint = vec![true; start.mesh.constraints.len()];
         mesh.mark_hull();
+        is_constraint.resize(mesh.edges.len(), false);
         let count = mesh.triangles.len();
         let mut greedy = Greedy {
-            parents: (0..mesh.edges.len() as u32).collect(),
             mesh,
             heights: vertices.iter().map(|&[_, _, z]| z).collect(),
             places,
@@ -95,12 +91,11 @@ impl<'a> Greedy<'a> {
             worst: vec![NO_ERROR; count],
             queue: BinaryHeap::new(),
             moving: Vec::new(),
-            constraints,
+            is_constraint,
             max_error: 0.0,
             threads,
             inserted: Vec::new(),
-            outside: 0,
-            limited: false,
+            stats,
         };
         greedy.distribute()?;
         Ok(greedy)
@@ -132,7 +127,7 @@ impl<'a> Greedy<'a> {
         for (place, &triangle) in (0..).zip(&found).filter(|&(_, &t)| t != NONE) {
             match self.mesh.triangles[triangle as usize].is_inside {
                 true => moving.push(Moving { place, triangle, error: 0.0 }),
-                false => self.outside += 1,
+                false => self.stats.outside += 1,
             }
         }
         parallel::for_chunks(self.threads, &mut moving, |_, chunk| {
@@ -222,7 +217,7 @@ impl<'a> Greedy<'a> {
                 continue;
             }
             if self.inserted.len() >= most || self.mesh.triangles.len() + 2 > MAX_TRIANGLES {
-                self.limited = true;
+                self.stats.limited = true;
                 break;
             }
             if self.inserted.len().is_multiple_of(REPORT) {
@@ -272,7 +267,7 @@ impl<'a> Greedy<'a> {
             Some(piece) => {
                 let e = self.mesh.edges[piece as usize];
                 self.mesh.fill_cut(piece, [self.mesh.origin(e), self.mesh.target(e)]);
-                self.parents.push(self.parents[piece as usize]);
+                self.is_constraint.push(self.is_constraint[piece as usize]);
             }
         }
         let fan = Fan::new(self);
@@ -302,8 +297,7 @@ impl<'a> Greedy<'a> {
         found.inside = self.mesh.triangles.iter().map(|triangle| triangle.is_inside).collect();
         mesh.duplicate_of.resize(self.mesh.points.len(), NONE);
         mesh.hull = growing::hull(mesh);
-        let constrained = self.mesh.edges.iter().zip(&self.parents);
-        let constrained = constrained.filter(|&(_, &parent)| (parent as usize) < self.constraints);
+        let constrained = self.mesh.edges.iter().zip(&self.is_constraint).filter(|&(_, &is_constraint)| is_constraint);
         mesh.constraints = constrained
             .map(|(&e, _)| {
                 let (from, to) = (self.mesh.origin(e), self.mesh.target(e));

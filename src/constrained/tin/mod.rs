@@ -145,7 +145,7 @@ fn tin_by(
     let Start { mesh: mut constrained, mut sources, mut vertices } =
         start(threads, points, constraints, &segments, &places)?;
     sources.resize(vertices.len(), NONE);
-    let mut stats = TinStats {
+    let stats = TinStats {
         start: vertices.len(),
         duplicates: places.duplicates(),
         other_heights: places.other_heights,
@@ -158,12 +158,11 @@ fn tin_by(
     for (place, i) in places.at(&constrained.added) {
         vertices[first_added + i][2] = places.heights[place];
     }
-    let mut greedy = Greedy::new(threads, &constrained, &vertices, &places)?;
+    let mut greedy = Greedy::new(threads, &constrained, &vertices, &places, stats)?;
     let most = options.max_points.map_or(usize::MAX, |most| most.saturating_sub(vertices.len()));
     greedy.insert_all(options, most, run)?;
-    (stats.outside, stats.limited) = (greedy.outside, greedy.limited);
     sources.extend(&greedy.inserted);
-    let max_error = greedy.error_left();
+    let (max_error, stats) = (greedy.error_left(), greedy.stats);
     let vertices = greedy.finish(&mut constrained);
     Ok(Tin { constrained, vertices, sources, max_error, stats })
 }
