@@ -44,12 +44,33 @@ pub(super) struct Common {
     /// Where to triangulate; the mesh is the same everywhere
     #[arg(long, value_enum, default_value_t = BackendName::Auto)]
     backend: BackendName,
+    #[command(flatten)]
+    runs: Runs,
+}
+
+/// How often a command does its work, and what it prints.
+#[derive(Args)]
+pub(super) struct Runs {
     /// Print statistics instead of a summary: one line per run
     #[arg(long, value_enum)]
-    stats: Option<StatsForm>,
+    pub(super) stats: Option<StatsForm>,
     /// Do it this many times
     #[arg(long, value_name = "N", default_value = "1")]
     repeat: NonZeroUsize,
+}
+
+impl Runs {
+    /// Calls `run` as often as requested, or until nobody reads what it prints, which it returns with its result. Returns
+    /// the last result.
+    pub(super) fn repeated<T>(&self, run: impl Fn() -> Result<(T, bool), Failure>) -> Result<T, Failure> {
+        // Each run gives its memory back before the next.
+        for _ in 1..self.repeat.get() {
+            if !run()?.1 {
+                break;
+            }
+        }
+        Ok(run()?.0)
+    }
 }
 
 /// Arguments of the commands that take query points.
@@ -282,13 +303,7 @@ impl Common {
             let is_read = self.print(&mesh, points.len(), &numbers, &times)?;
             Ok::<_, Failure>(((mesh, result), is_read))
         };
-        // Each run gives its memory back before the next.
-        for _ in 1..self.repeat.get() {
-            if !run()?.1 {
-                break;
-            }
-        }
-        Ok(run()?.0)
+        self.runs.repeated(run)
     }
 
     fn print<M: Triangulation<D, N>, const D: usize, const N: usize>(
@@ -312,7 +327,7 @@ impl Common {
             fallback: stats.fallback.as_ref(),
             seconds: &seconds,
         };
-        print(self.stats, &report)
+        print(self.runs.stats, &report)
     }
 }
 

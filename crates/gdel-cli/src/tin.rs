@@ -2,11 +2,11 @@
 
 use super::{
     constrain::{FillRule, read_breaklines},
-    derive::{Number, SolidFormat, as_map, numbers, parse_solid, write_cells, write_triangles},
+    derive::{Number, Runs, SolidFormat, as_map, numbers, parse_solid, write_cells, write_triangles},
     dimension::{format_parser, read},
     failure::Failure,
     progress::Progress,
-    triangulate::{StatsForm, print},
+    triangulate::print,
 };
 use clap::{ArgGroup, Args, error::ErrorKind};
 use gdel::{
@@ -62,12 +62,8 @@ pub(super) struct Arguments {
     /// How many threads are used [default: all]
     #[arg(long, value_name = "N")]
     threads: Option<NonZeroUsize>,
-    /// Print statistics instead of a summary: one line per run
-    #[arg(long, value_enum)]
-    stats: Option<StatsForm>,
-    /// Do it this many times
-    #[arg(long, value_name = "N", default_value = "1")]
-    repeat: NonZeroUsize,
+    #[command(flatten)]
+    runs: Runs,
     /// Where to write the triangles: .stl, .ply, .obj, .glb, .3mf or .vtu
     #[arg(short, long = "output", value_name = "FILE", value_parser = parse_output)]
     output: ResultOutput<SolidFormat>,
@@ -116,21 +112,15 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     options.max_error = arguments.max_error.unwrap_or(0.0);
     options.max_points = arguments.max_points;
     let all = Points::F64(&points);
-    let make = || {
-        let _progress = Progress::new("terrain");
+    let tin = arguments.runs.repeated(|| {
+        let progress = Progress::new("terrain");
         let start = Instant::now();
         let tin = triangulator.tin(all, &constraints, &options).map_err(failure)?;
-        Ok::<_, Failure>((tin, start.elapsed()))
-    };
-    // Each run gives its memory back before the next.
-    for _ in 1..arguments.repeat.get() {
-        let (tin, time) = make()?;
-        if !report(arguments, scan.len(), &constraints, interpolated, &tin, time)? {
-            break;
-        }
-    }
-    let (tin, time) = make()?;
-    report(arguments, scan.len(), &constraints, interpolated, &tin, time)?;
+        let time = start.elapsed();
+        drop(progress);
+        let is_read = report(arguments, scan.len(), &constraints, interpolated, &tin, time)?;
+        Ok((tin, is_read))
+    })?;
     let (vertices, triangles) = used(&tin);
     // Vertices of the scan have its precision: some formats are smaller for single precision.
     let vertices = match scan {
@@ -183,7 +173,7 @@ fn report(
         ("max_error", Number::Real(tin.max_error)),
         ("limited", Number::Truth(stats.limited)),
     ]);
-    print(arguments.stats, &Report { numbers, seconds: time.as_secs_f64() })
+    print(arguments.runs.stats, &Report { numbers, seconds: time.as_secs_f64() })
 }
 
 /// The points of a scan and of breaklines, and the segments between them.
