@@ -204,7 +204,7 @@ where
     /// # Errors
     ///
     /// [`Error::NotFinite`], or [`Error::BrokenMesh`] if the walk does not end because the mesh is
-    /// not the Delaunay or regular triangulation of the points.
+    /// not the Delaunay, regular or constrained Delaunay triangulation of the points.
     pub fn locate(&self, query: [f64; D]) -> Result<Location, Error> {
         Points::F64(&[query]).validate()?;
         let reach = self.reach(Points::F64(&[]));

@@ -42,6 +42,9 @@ use std::{borrow::Cow, sync::OnceLock};
 /// [tolerance](Locator) is moved inside, by no more than that; where the hull is thinner,
 /// interpolation is linear within the facet.
 ///
+/// In a mesh with [constraints](crate::Triangulator::constrained2d), no value crosses a constrained edge: the natural
+/// neighbours of a place are those that it can see, and on the edge the values are linear between its ends.
+///
 /// Linear, Laplace and Sibson interpolation of the same values; those that are
 /// [smooth](Interpolation::is_smooth) also take up the gradients at the vertices:
 ///
@@ -235,7 +238,8 @@ where
     /// # Errors
     ///
     /// [`Error::NotFinite`], or [`Error::BrokenMesh`] as for [`Locator::locate`]; [`Error::BadOption`] for
-    /// [`Interpolation::CloughTocher`] in a 3D mesh that has tetrahedra.
+    /// [`Interpolation::CloughTocher`] in a 3D mesh that has tetrahedra; [`Error::ConstrainedMesh`] for
+    /// [smooth](Interpolation::is_smooth) methods in a mesh with constraints.
     pub fn interpolate(&self, method: Interpolation, query: [f64; D]) -> Result<f64, Error> {
         self.check(method)?;
         Points::F64(&[query]).validate()?;

@@ -225,7 +225,8 @@ where
     /// [`Error::PointCount`], [`Error::NotFinite`], [`Error::BadWeight`] or [`Error::BrokenMesh`] as for
     /// [`Locator::new`](crate::Locator::new); [`Error::EmptyBox`] if the lowest corner of the box
     /// is not below the highest, or not finite, unless the points are as flat as the box;
-    /// [`Error::BadOption`] if the corners of a convex shape are not finite, flat, or not all on their
+    /// [`Error::ConstrainedMesh`], since such a mesh has a
+    /// [bounded diagram](crate::Constrained2::bounded_voronoi); [`Error::BadOption`] if the corners of a convex shape are not finite, flat, or not all on their
     /// convex hull.
     pub fn new(mesh: &'a impl Mesh<D, N>, points: impl Into<Points<'a, D>>, clip: Clip<'_, D>) -> Result<Self, Error> {
         let points = points.into();
