@@ -88,13 +88,16 @@ export function polygonHand(
     },
   };
   listen('keydown', (event) => {
-    if (event.target !== canvas || !draws() || event.ctrlKey || event.metaKey || event.altKey)
-      return;
-    if (!keys[event.key]?.()) return;
-    event.preventDefault();
-    event.stopPropagation();
+    if (event.target === canvas && draws()) takeKey(event, keys);
   });
   return { pointer: () => pointer };
+}
+
+/** Does what a key stands for, if it returns true, and nothing else. */
+function takeKey(event: KeyboardEvent, keys: Record<string, () => boolean>): void {
+  if (event.ctrlKey || event.metaKey || event.altKey || !keys[event.key]?.()) return;
+  event.preventDefault();
+  event.stopPropagation();
 }
 
 function change(page: Page, edit: Edit, words: string): void {
