@@ -85,8 +85,9 @@ def test_pickling_keeps_constraints() -> None:
     copy = pickle.loads(pickle.dumps(tri))
     assert copy.constraints.tolist() == tri.constraints.tolist()
     assert area(copy) == 72
+    assert copy.inside[copy.find_simplex((1, 1))]
     with pytest.raises(ValueError, match="constraints"):
-        copy.find_simplex((1, 1))
+        copy.update(POINTS)
 
 
 def test_places_and_values_inside() -> None:
