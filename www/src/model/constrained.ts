@@ -78,7 +78,7 @@ export class Model2dOfPolygons extends Model2d {
     return { ...super.summary(), simplices, given: this.count };
   }
 
-  /** Of polygons there is no Voronoi diagram. */
+  /** The bounded Voronoi diagram of polygons is not drawn. */
   override draw(request: DrawRequest): Drawing {
     return super.draw({ ...request, voronoi: false });
   }

@@ -34,7 +34,7 @@ export function polygons(page: Page): Part {
     const voronoi = byId<HTMLInputElement>('voronoi');
     if (page.summary?.given !== undefined) {
       voronoi.disabled = true;
-      voronoi.parentElement!.title = 'Polygons have no Voronoi diagram.';
+      voronoi.parentElement!.title = 'Cells of polygons are not drawn.';
     }
     panel.tell(shown);
   };
