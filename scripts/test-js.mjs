@@ -9,7 +9,7 @@
 
 import { mkdtempSync, readdirSync, rmSync } from 'node:fs';
 import { availableParallelism, tmpdir } from 'node:os';
-import { join, resolve } from 'node:path';
+import { join, relative, resolve } from 'node:path';
 import { run } from 'node:test';
 import { spec } from 'node:test/reporters';
 import { packInto, root } from '../tests/web/package.mjs';
@@ -49,5 +49,11 @@ const tests = run({
 });
 tests.on('test:fail', () => {
   process.exitCode = 1;
+});
+// The report tells of a file once those before it have ended: this says at once how far the tests are.
+tests.on('test:complete', ({ name, file, details: { passed, duration_ms } }) => {
+  if (name !== file) return;
+  const seconds = Math.round(duration_ms / 1000);
+  console.error(`${relative(root, file)} has ${passed ? 'passed' : 'failed'} in ${seconds} s`);
 });
 tests.compose(spec).pipe(process.stdout);

@@ -111,15 +111,11 @@ export async function prove(page) {
 /** Downloads the mesh in one format into a folder. Resolves to the paths of its files. */
 export async function save(page, format, folder, files = 1) {
   const downloads = [];
-  const all = new Promise((resolve) => {
-    page.on('download', function listen(download) {
-      if (downloads.push(download) < files) return;
-      page.off('download', listen);
-      resolve();
-    });
+  // Where the page says something else instead, this ends with an error after the time that the page may take.
+  const all = page.waitForEvent('download', {
+    predicate: (download) => downloads.push(download) === files,
   });
-  await page.getByRole('button', { name: format, exact: true }).click();
-  await all;
+  await Promise.all([all, page.getByRole('button', { name: format, exact: true }).click()]);
   const paths = downloads.map((download) => join(folder, download.suggestedFilename()));
   await Promise.all(downloads.map((download, i) => download.saveAs(paths[i])));
   return paths;

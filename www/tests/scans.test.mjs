@@ -562,6 +562,9 @@ describe('in difficult surroundings', () => {
       'Stanford dragon could not be loaded. Check your connection and try again.',
     );
     await tab(page, 'use');
+    await until(page, () =>
+      document.querySelector('#code').textContent.startsWith('// The code could not be loaded.'),
+    );
     await page.getByRole('button', { name: 'GLB', exact: true }).click();
     await until(page, () =>
       document.querySelector('#message-text').textContent.startsWith('GLB could not be loaded.'),

@@ -106,6 +106,14 @@ export function titleOf(source: Source): string {
   return source.count === 0 ? 'Drawn by hand' : DISTRIBUTIONS[2][source.distribution];
 }
 
+/** What downloads are called, before the dot. */
+export function stemOf(source: Source): string {
+  return titleOf(source)
+    .replace(/\.[^.]*$/, '')
+    .replace(/[^\w-]+/g, '-')
+    .toLowerCase();
+}
+
 /** What suits a source: the surface of a scan, the carved solid of an object, all of a synthetic cloud. */
 export function filterFor({ kind, dimension }: Pick<Source, 'kind' | 'dimension'>): FilterKind {
   if (kind === 'generator' || dimension === 2) return 'all';

@@ -1,7 +1,7 @@
 import { addsPoint, applyEdits, type Edit, removedBy } from '../model/edits';
 import type { Summary } from '../model/model';
 import { type Constrained, constraintsAfter, MOST_ADDED } from '../model/shapes';
-import { isGzipName, isShapes, nameIn, type Source, titleOf } from '../model/source';
+import { isGzipName, isShapes, nameIn, type Source, stemOf } from '../model/source';
 import type { Settings } from '../settings';
 
 /** Returns the lines that do with the package what the page has just done, on exactly this input. */
@@ -152,14 +152,6 @@ function shapesOf(source: Source): Lines {
       `  { name: ${quoted(name.replace(/\.gz$/i, ''))} });`,
     ],
   };
-}
-
-/** What downloads are called, before the dot. */
-export function stemOf(source: Source): string {
-  return titleOf(source)
-    .replace(/\.[^.]*$/, '')
-    .replace(/[^\w-]+/g, '-')
-    .toLowerCase();
 }
 
 interface Lines {

@@ -1,4 +1,5 @@
 import type { SavedFile } from '../model/save';
+import { stemOf } from '../model/source';
 import type { Page } from '../page';
 import { complaintAbout } from './complaint';
 import { saveFile } from './dom';
@@ -18,7 +19,6 @@ export async function download(
   showMessage(null);
   try {
     const files = await make();
-    const { stemOf } = await import('./code');
     const stem = stemOf(page.settings.source);
     for (const { extension, bytes } of files) {
       saveFile(stem + extension, new Blob([bytes as Uint8Array<ArrayBuffer>]));

@@ -1,5 +1,6 @@
 import { FORMATS, type Format, type SavedFile } from '../model/save';
 import type { Page, Part } from '../page';
+import { complaintAbout } from './complaint';
 import { byId, count, create } from './dom';
 import { download } from './download';
 import { nameOf } from './result';
@@ -34,9 +35,15 @@ export function usePanel(page: Page): Part {
   const tell = async () => {
     if (byId('use').hidden) return;
     const own = ++asked;
-    const { codeFor } = await import('./code');
-    const polygons = page.summary?.given === undefined ? null : await page.model.constrained();
-    if (own === asked) byId('code').textContent = codeFor(page.settings, page.summary, polygons);
+    let code: string;
+    try {
+      const { codeFor } = await import('./code');
+      const polygons = page.summary?.given === undefined ? null : await page.model.constrained();
+      code = codeFor(page.settings, page.summary, polygons);
+    } catch (error) {
+      code = `// ${complaintAbout('The code', error)}`;
+    }
+    if (own === asked) byId('code').textContent = code;
   };
   return {
     changed: () => void tell(),
