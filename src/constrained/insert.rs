@@ -9,8 +9,11 @@
 //! 3. Flips make the new triangles constrained Delaunay.
 //!
 //! A piece that crosses a constrained edge is left out, and the crossing noted.
+//!
+//! Several threads insert at once, each in a part of the triangles. What needs triangles of other parts is left until
+//! one thread has all of them. The triangulation does not depend on the order, so that there is nothing to agree on.
 
-use super::topology::{Marked, next, previous};
+use super::topology::{Part, next, previous};
 use crate::{index::NONE, predicates::Sign};
 use rustc_hash::FxHashMap;
 
@@ -25,11 +28,22 @@ pub(super) struct Inserted {
     pub(super) pieces: Vec<([u32; 2], u32)>,
     /// The pieces that are left out: the constrained edge that one crosses, and its segment.
     pub(super) crossings: Vec<([u32; 2], u32)>,
+    /// What is left of segments that lead elsewhere: the segment, and the vertices between which it is to be inserted.
+    pub(super) left: Vec<(u32, [u32; 2])>,
 }
 
-/// Inserts segments into a triangulation.
-pub(super) struct Inserter<'m, 'a> {
-    mesh: &'m mut Marked<'a>,
+impl Inserted {
+    /// Adds what is said elsewhere, which is empty then.
+    pub(super) fn append(&mut self, other: &mut Self) {
+        self.pieces.append(&mut other.pieces);
+        self.crossings.append(&mut other.crossings);
+        self.left.append(&mut other.left);
+    }
+}
+
+/// Inserts segments into a part of a triangulation.
+pub(super) struct Inserter<'m> {
+    mesh: Part<'m>,
     inserted: Inserted,
     cavity: Cavity,
 }
@@ -76,6 +90,8 @@ enum Way {
     Along(u32, u32),
     /// Through the triangle in which this half-edge starts at the vertex.
     Through(u32),
+    /// Perhaps through triangles that are elsewhere.
+    Elsewhere,
 }
 
 /// A turn around a vertex in search of the way to another.
@@ -90,16 +106,19 @@ struct Turn {
 }
 
 impl Turn {
-    fn new(mesh: &Marked<'_>, vertex: u32, goal: u32) -> Self {
+    fn new(mesh: &Part<'_>, vertex: u32, goal: u32) -> Self {
         let first = mesh.start(vertex);
         Turn { vertex, goal, first, at: first, is_clockwise: false, sides: [None; 2] }
     }
 
     /// Looks at the next triangle. Returns the way if it is there.
-    fn step(&mut self, mesh: &Marked<'_>) -> Option<Way> {
+    fn step(&mut self, mesh: &Part<'_>) -> Option<Way> {
         let e = self.at;
         if e == NONE {
             return None;
+        }
+        if !mesh.has(e) {
+            return Some(Way::Elsewhere);
         }
         let (p, q) = (mesh.target(e), mesh.origin(previous(e)));
         if p == self.goal {
@@ -125,7 +144,7 @@ impl Turn {
     }
 
     /// Goes on counter-clockwise, and clockwise from where it began once the hull is reached.
-    fn turn(&mut self, mesh: &Marked<'_>, right: Sign, left: Sign) {
+    fn turn(&mut self, mesh: &Part<'_>, right: Sign, left: Sign) {
         if !self.is_clockwise {
             let on = mesh.twin(previous(self.at));
             if on != NONE {
@@ -142,59 +161,80 @@ impl Turn {
     }
 }
 
+/// Why a piece is not inserted.
+enum Stop {
+    /// It needs triangles that are elsewhere. Nothing has been changed.
+    Elsewhere,
+    Lost,
+}
+
 /// An error of the program or of the mesh: a way that should be there is not.
 pub(super) struct Lost;
 
-impl<'m, 'a> Inserter<'m, 'a> {
-    pub(super) fn new(mesh: &'m mut Marked<'a>) -> Self {
+impl<'m> Inserter<'m> {
+    pub(super) fn new(mesh: Part<'m>) -> Self {
         Inserter { mesh, inserted: Inserted::default(), cavity: Cavity::default() }
     }
 
-    pub(super) fn finish(self) -> Inserted {
-        self.inserted
+    /// Returns what insertion says, and the edges that may not be locally Delaunay because of triangles elsewhere.
+    pub(super) fn finish(self) -> (Inserted, Vec<u32>) {
+        (self.inserted, self.mesh.left())
     }
 
-    /// Inserts the segment between two different vertices.
+    /// Inserts the segment between two different vertices, as far as it leads through the triangles of this part.
     pub(super) fn insert(&mut self, segment: u32, mut ends: [u32; 2]) -> Result<(), Lost> {
         while ends[0] != ends[1] {
-            let (way, end) = self.way(ends)?;
-            let from = ends[end];
-            let to = match way {
-                Way::Along(to, e) => {
-                    self.mesh.mark(e);
-                    self.inserted.pieces.push(([from.min(to), from.max(to)], segment));
-                    to
+            match self.insert_piece(segment, ends) {
+                Ok(left) => ends = left,
+                Err(Stop::Elsewhere) => {
+                    self.inserted.left.push((segment, ends));
+                    break;
                 }
-                Way::Through(e) => self.cross(segment, e, ends[1 - end])?,
-            };
-            ends[end] = to;
+                Err(Stop::Lost) => return Err(Lost),
+            }
         }
         Ok(())
     }
 
+    /// Inserts the piece at one of the ends. Returns the ends of what is left.
+    fn insert_piece(&mut self, segment: u32, mut ends: [u32; 2]) -> Result<[u32; 2], Stop> {
+        let (way, end) = self.way(ends)?;
+        let from = ends[end];
+        ends[end] = match way {
+            Way::Along(to, e) if !self.mesh.is_elsewhere(self.mesh.twin(e)) => {
+                self.mesh.mark(e);
+                self.inserted.pieces.push(([from.min(to), from.max(to)], segment));
+                to
+            }
+            Way::Through(e) => self.cross(segment, e, ends[1 - end])?,
+            Way::Along(..) | Way::Elsewhere => return Err(Stop::Elsewhere),
+        };
+        Ok(ends)
+    }
+
     /// Finds how the segment leaves one of its ends, and which: the first, unless that has many triangles. Then it turns
     /// around both at once, so that it takes no longer than around the one with fewer.
-    fn way(&self, [a, b]: [u32; 2]) -> Result<(Way, usize), Lost> {
-        let mut first = Turn::new(self.mesh, a, b);
+    fn way(&self, [a, b]: [u32; 2]) -> Result<(Way, usize), Stop> {
+        let mut first = Turn::new(&self.mesh, a, b);
         for _ in 0..FEW {
-            if let Some(way) = first.step(self.mesh) {
+            if let Some(way) = first.step(&self.mesh) {
                 return Ok((way, 0));
             }
         }
-        let mut turns = [first, Turn::new(self.mesh, b, a)];
+        let mut turns = [first, Turn::new(&self.mesh, b, a)];
         while turns[0].at != NONE || turns[1].at != NONE {
             for (end, turn) in turns.iter_mut().enumerate() {
-                if let Some(way) = turn.step(self.mesh) {
+                if let Some(way) = turn.step(&self.mesh) {
                     return Ok((way, end));
                 }
             }
         }
-        Err(Lost)
+        Err(Stop::Lost)
     }
 
     /// Follows a segment from the vertex where half-edge `e` starts through the triangle of `e`, up to the next vertex
     /// on it, and makes this piece an edge. Returns the vertex.
-    fn cross(&mut self, segment: u32, e: u32, goal: u32) -> Result<u32, Lost> {
+    fn cross(&mut self, segment: u32, e: u32, goal: u32) -> Result<u32, Stop> {
         let from = self.mesh.origin(e);
         let Cavity { triangles, sides: [left, right], .. } = &mut self.cavity;
         for list in [&mut *triangles, &mut *left, &mut *right] {
@@ -213,8 +253,11 @@ impl<'m, 'a> Inserter<'m, 'a> {
                 self.inserted.crossings.push(([a.min(b), a.max(b)], segment));
             }
             let beyond = self.mesh.twin(crossed);
-            if beyond == NONE || triangles.len() == self.mesh.triangles.len() {
-                return Err(Lost);
+            if self.mesh.is_elsewhere(beyond) {
+                return Err(Stop::Elsewhere);
+            }
+            if beyond == NONE || triangles.len() == self.mesh.mesh_len() {
+                return Err(Stop::Lost);
             }
             triangles.push(beyond / 3);
             let (rightwards, leftwards) = (next(beyond), previous(beyond));
@@ -241,13 +284,16 @@ impl<'m, 'a> Inserter<'m, 'a> {
     }
 
     /// Triangulates the cavity with the piece as an edge.
-    fn rebuild(&mut self, from: u32, to: u32) -> Result<(), Lost> {
+    fn rebuild(&mut self, from: u32, to: u32) -> Result<(), Stop> {
         // What is across is noted for both sides before any of it is overwritten.
         self.cavity.triangles.sort_unstable();
         let mut chain = std::mem::take(&mut self.cavity.chain);
         chain.clear();
         for &e in self.cavity.sides.iter().flatten() {
             let across = self.mesh.twin(e);
+            if self.mesh.is_elsewhere(across) {
+                return Err(Stop::Elsewhere);
+            }
             let is_inside = across != NONE && self.cavity.triangles.binary_search(&(across / 3)).is_ok();
             let facing = Facing { across, is_marked: self.mesh.is_marked(e), inner: if is_inside { e } else { NONE } };
             chain.push(Link { end: self.mesh.origin(e), facing });
@@ -263,7 +309,7 @@ impl<'m, 'a> Inserter<'m, 'a> {
 
     /// Triangulates the polygon that goes from a vertex along a chain, on the right of it, and back to the vertex.
     /// Returns the half-edge that goes from its vertex to the last one of the chain.
-    fn cut_ears(&mut self, from: u32, chain: &[Link]) -> Result<u32, Lost> {
+    fn cut_ears(&mut self, from: u32, chain: &[Link]) -> Result<u32, Stop> {
         let mut stack = std::mem::take(&mut self.cavity.stack);
         stack.clear();
         stack.push((from, Facing::NOTHING));
@@ -272,7 +318,7 @@ impl<'m, 'a> Inserter<'m, 'a> {
                 if self.mesh.orient2d(before, ear, end) >= 0 {
                     break;
                 }
-                let t = self.cavity.triangles.pop().ok_or(Lost)?;
+                let t = self.cavity.triangles.pop().ok_or(Stop::Lost)?;
                 self.mesh.put(t, [before, end, ear]);
                 self.connect(3 * t + 1, facing);
                 self.connect(3 * t + 2, ear_facing);
@@ -281,14 +327,14 @@ impl<'m, 'a> Inserter<'m, 'a> {
             }
             stack.push((end, facing));
         }
-        let base = if let [_, (_, base)] = stack[..] { Ok(base.across) } else { Err(Lost) };
+        let base = if let [_, (_, base)] = stack[..] { Ok(base.across) } else { Err(Stop::Lost) };
         self.cavity.stack = stack;
         base
     }
 
     /// Joins a new half-edge with what is across, or notes it if that is to be made yet.
     fn connect(&mut self, e: u32, facing: Facing) {
-        self.mesh.doubt(e);
+        self.mesh.doubt([e]);
         if facing.inner == NONE {
             return self.mesh.join(e, facing.across, facing.is_marked);
         }

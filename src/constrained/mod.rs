@@ -37,8 +37,9 @@ use crate::{
 use insert::{Inserted, Inserter, Lost};
 pub use refine::{RefineLeft, RefineOptions, RefineStats, Refined2, Size};
 use split::Split;
+use std::num::NonZeroUsize;
 pub use tin::{Tin, TinOptions, TinStats, tin};
-use topology::Marked;
+use topology::{Marked, Part};
 
 /// The number of crossings that [`Error::CrossingConstraints`] lists.
 const LISTED: usize = 16;
@@ -280,7 +281,12 @@ impl Constrained2 {
 ///
 /// [`Unconstrained::Crossings`], or [`Error::OpenBoundary`], or [`Error::BrokenMesh`] if the mesh is not that of the
 /// points.
-fn constrain(mut mesh: Mesh2, points: Points2<'_>, constraints: &Constraints) -> Result<Constrained2, Unconstrained> {
+fn constrain(
+    threads: Threads,
+    mut mesh: Mesh2,
+    points: Points2<'_>,
+    constraints: &Constraints,
+) -> Result<Constrained2, Unconstrained> {
     let first_boundary = constraints.edges.len() as u32;
     let named = |segment: &[u32; 2]| segment.map(|v| mesh.representative(v));
     let segments: Vec<[u32; 2]> = constraints.edges.iter().chain(&constraints.boundary).map(named).collect();
@@ -293,8 +299,8 @@ fn constrain(mut mesh: Mesh2, points: Points2<'_>, constraints: &Constraints) ->
         mesh.constraints = flat::edges(&mesh.hull, points.len(), &segments);
         return Ok(Constrained2 { mesh, zero_length, segments: constraints.segments(), ..Constrained2::default() });
     }
-    let mut pieces = insert_all(&mut mesh, points, &segments)?;
-    parallel::sort(Threads::All, &mut pieces);
+    let mut pieces = insert_all(threads, &mut mesh, points, &segments)?;
+    parallel::sort(threads, &mut pieces);
     let weight = |&(edge, segment): &Piece| {
         let [from, to] = segments[segment as usize].map(|v| points.get(v as usize));
         let [low, high] = edge.map(|v| points.get(v as usize));
@@ -321,19 +327,24 @@ const MAX_ROUNDS: usize = 100;
 pub(crate) struct Constraining<'a> {
     points: Points2<'a>,
     constraints: &'a Constraints,
+    threads: Option<NonZeroUsize>,
     split: Option<Split>,
     rounds: usize,
 }
 
 impl<'a> Constraining<'a> {
-    /// Checks the constraints.
+    /// Checks the constraints, which so many threads are to insert.
     ///
     /// # Errors
     ///
     /// [`Error::BadConstraint`].
-    pub(crate) fn new(points: Points2<'a>, constraints: &'a Constraints) -> Result<Self, Error> {
+    pub(crate) fn new(
+        points: Points2<'a>,
+        constraints: &'a Constraints,
+        threads: Option<NonZeroUsize>,
+    ) -> Result<Self, Error> {
         constraints.check(points.len())?;
-        Ok(Constraining { points, constraints, split: None, rounds: 0 })
+        Ok(Constraining { points, constraints, threads, split: None, rounds: 0 })
     }
 
     /// Returns the points whose counter-clockwise Delaunay triangulation is needed next.
@@ -349,7 +360,8 @@ impl<'a> Constraining<'a> {
     /// points.
     pub(crate) fn constrain(&mut self, mesh: Mesh2) -> Result<Option<Constrained2>, Error> {
         let constraints = self.split.as_ref().map_or(self.constraints, |split| &split.constraints);
-        let pairs = match constrain(mesh, self.points(), constraints) {
+        let found = |threads| Ok(constrain(threads, mesh, self.points(), constraints));
+        let pairs = match parallel::with_threads(self.threads, found)? {
             Ok(mut found) => {
                 if let Some(mut split) = self.split.take() {
                     found.added = split.points.split_off(split.given);
@@ -376,7 +388,7 @@ impl<'a> Constraining<'a> {
 ///
 /// Returns the errors of [`Triangulator::constrained2d`](crate::Triangulator::constrained2d).
 pub fn constrained(points: Points2<'_>, constraints: &Constraints, options: &Options) -> Result<Constrained2, Error> {
-    let mut left = Constraining::new(points, constraints)?;
+    let mut left = Constraining::new(points, constraints, options.threads)?;
     loop {
         if let Some(found) = left.constrain(cpu::delaunay::<2>(left.points(), options)?)? {
             return Ok(found);
@@ -400,46 +412,91 @@ impl From<Error> for Unconstrained {
 /// A constrained edge, the lower vertex first, and the segment that it is a piece of.
 type Piece = ([u32; 2], u32);
 
+/// With fewer segments for each, threads take longer to begin than to insert them.
+const MIN_SEGMENTS: usize = if cfg!(test) { 1 } else { 256 };
+
+/// How many segments for each thread are looked at to share the triangles out.
+const SAMPLED: usize = 64;
+
 /// Inserts the segments between vertices. Returns their pieces.
 ///
 /// # Errors
 ///
 /// [`Unconstrained::Crossings`] or [`Error::BrokenMesh`].
-fn insert_all(mesh: &mut Mesh2, points: Points2<'_>, segments: &[[u32; 2]]) -> Result<Vec<Piece>, Unconstrained> {
+fn insert_all(
+    threads: Threads,
+    mesh: &mut Mesh2,
+    points: Points2<'_>,
+    segments: &[[u32; 2]],
+) -> Result<Vec<Piece>, Unconstrained> {
     let mut marked = Marked::new(mesh, points);
     let proper = (0..).zip(segments).filter(|(_, [a, b])| a != b);
     // In the order of the triangles, which are near each other in memory if they are near each other.
     let start = |v: u32| marked.start(v);
     let mut keyed: Vec<u64> = proper.clone().map(|(i, &[a, b])| u64::from(start(a).min(start(b))) << 32 | i).collect();
-    parallel::sort_keyed(Threads::All, &mut keyed);
-    let near = keyed.into_iter().map(|key| key as u32);
+    parallel::sort_keyed(threads, &mut keyed);
     let lost = |_: Lost| Error::BrokenMesh { reason: "a segment leads nowhere" };
-    let mut inserted = insert_in_order(&mut marked, segments, near).map_err(lost)?;
+    let mut inserted = insert_in_parts(threads, &mut marked, segments, &keyed).map_err(lost)?;
     if !inserted.crossings.is_empty() {
         // Which ones cross those before them depends on the order: in that of the input, anew.
-        marked.unmark_all();
-        marked.flip_pending();
-        inserted = insert_in_order(&mut marked, segments, proper.map(|(i, _)| i as u32)).map_err(lost)?;
+        let edges = marked.unmark_all();
+        let given = proper.map(|(i, &ends)| (i as u32, ends));
+        inserted = insert_in_order(marked.whole(), edges, given).map_err(lost)?.0;
         return Err(Unconstrained::Crossings(crossings(inserted)));
     }
     marked.restore(mesh);
     Ok(inserted.pieces)
 }
 
-fn insert_in_order(
+/// Inserts the segments that are the lower halves of keys; the upper ones are half-edges at which they start. Each
+/// thread takes those that start in its strip of the plane, and one thread what is left of all.
+fn insert_in_parts(
+    threads: Threads,
     marked: &mut Marked<'_>,
     segments: &[[u32; 2]],
-    order: impl Iterator<Item = u32>,
+    keyed: &[u64],
 ) -> Result<Inserted, Lost> {
-    let mut inserter = Inserter::new(marked);
-    for i in order {
-        inserter.insert(i, segments[i as usize])?;
+    let named = |&key: &u64| (key as u32, segments[key as u32 as usize]);
+    let count = parallel::count(threads).min(keyed.len() / MIN_SEGMENTS).min(usize::from(u8::MAX));
+    if count < 2 {
+        return Ok(insert_in_order(marked.whole(), Vec::new(), keyed.iter().map(named))?.0);
+    }
+    let starts = keyed.iter().step_by(keyed.len().div_ceil(SAMPLED * count)).map(|key| named(key).1[0]);
+    let owners = marked.owners(threads, count, starts);
+    let owner = |key: &u64| owners[(key >> 32) as usize / 3];
+    let mut segments = vec![Vec::new(); count];
+    keyed.iter().for_each(|key| segments[usize::from(owner(key))].push(named(key)));
+    let results = parallel::map_mut(threads, &mut segments, |part, segments| {
+        insert_in_order(marked.part(&owners, part as u8), Vec::new(), segments.drain(..))
+    });
+    let (mut inserted, mut edges) = (Inserted::default(), Vec::new());
+    for (mut part, doubtful) in results.into_iter().collect::<Result<Vec<_>, _>>()? {
+        inserted.append(&mut part);
+        edges.extend(doubtful);
+    }
+    let left = std::mem::take(&mut inserted.left);
+    let (mut last, _) = insert_in_order(marked.whole(), edges, left.into_iter())?;
+    inserted.append(&mut last);
+    Ok(inserted)
+}
+
+/// Flips the edges in doubt, and inserts segments one after the other.
+fn insert_in_order(
+    mut part: Part<'_>,
+    doubtful: Vec<u32>,
+    segments: impl Iterator<Item = (u32, [u32; 2])>,
+) -> Result<(Inserted, Vec<u32>), Lost> {
+    part.doubt(doubtful);
+    part.flip_pending();
+    let mut inserter = Inserter::new(part);
+    for (segment, ends) in segments {
+        inserter.insert(segment, ends)?;
     }
     Ok(inserter.finish())
 }
 
 /// Returns which segments cross, in the order of the input.
-fn crossings(Inserted { mut pieces, crossings }: Inserted) -> Vec<[u32; 2]> {
+fn crossings(Inserted { mut pieces, crossings, .. }: Inserted) -> Vec<[u32; 2]> {
     pieces.sort_unstable();
     let mut pairs: Vec<[u32; 2]> = Vec::new();
     for (edge, segment) in crossings {
@@ -450,4 +507,77 @@ fn crossings(Inserted { mut pieces, crossings }: Inserted) -> Vec<[u32; 2]> {
     pairs.sort_unstable();
     pairs.dedup();
     pairs
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{random::Random, verify2d};
+
+    fn by(threads: usize) -> Options {
+        Options { threads: NonZeroUsize::new(threads), ..Options::default() }
+    }
+
+    /// Returns the triangles, each from its lowest vertex on, in ascending order.
+    fn triangles(mesh: &Mesh2) -> Vec<[u32; 3]> {
+        let from_lowest = |&[a, b, c]: &[u32; 3]| [[a, b, c], [b, c, a], [c, a, b]].into_iter().min().unwrap();
+        let mut triangles: Vec<_> = mesh.triangles.iter().map(from_lowest).collect();
+        triangles.sort_unstable();
+        triangles
+    }
+
+    /// Segments that do not cross: edges of the triangulation of sheared points, some of which go on through their end.
+    fn segments(points: &[[f64; 2]], random: &mut Random) -> Vec<[u32; 2]> {
+        let sheared: Vec<[f64; 2]> = points.iter().map(|&[x, y]| [x + 4.0 * y, y - x]).collect();
+        let mesh = cpu::delaunay::<2>(Points2::F64(&sheared), &by(1)).unwrap();
+        let edges: Vec<[u32; 2]> =
+            (0..mesh.triangles.len()).flat_map(|t| (0..3).map(|k| mesh.edge(t, k)).collect::<Vec<_>>()).collect();
+        let mut segments = Vec::new();
+        for &[a, b] in &edges {
+            if random.unit() < 0.5 {
+                continue;
+            }
+            let of = |v: u32| points[v as usize];
+            let goes_on = |&&[from, to]: &&[u32; 2]| {
+                let ([ax, ay], [bx, by], [cx, cy]) = (of(a), of(b), of(to));
+                from == b && [cx - bx, cy - by] == [bx - ax, by - ay]
+            };
+            segments.push([a, edges.iter().find(goes_on).map_or(b, |&[_, to]| to)]);
+        }
+        segments
+    }
+
+    #[test]
+    fn several_threads_find_the_triangulation_of_one() {
+        let mut random = Random::new(1);
+        for case in 0..400 {
+            let (count, size) = (10 + case, 3 + case % 30);
+            let points: Vec<[f64; 2]> = (0..count).map(|_| random.on_grid(size)).collect();
+            let constraints = Constraints::new().edges(&segments(&points, &mut random));
+            let one = constrained(Points2::F64(&points), &constraints, &by(1)).unwrap();
+            let several = constrained(Points2::F64(&points), &constraints, &by(2 + case as usize % 6)).unwrap();
+            assert_eq!(triangles(&several.mesh), triangles(&one.mesh), "case {case}");
+            assert_eq!(several.mesh.constraints, one.mesh.constraints);
+            assert!(verify2d(&points, &several.mesh).unwrap().passed());
+        }
+    }
+
+    #[test]
+    fn several_threads_find_the_crossings_of_one() {
+        let mut random = Random::new(2);
+        for case in 0..200 {
+            let count = 5 + case % 50;
+            let points: Vec<[f64; 2]> = (0..count).map(|_| random.in_cube()).collect();
+            let mut vertex = || (random.unit() * f64::from(count)) as u32;
+            let edges: Vec<[u32; 2]> = (0..count).map(|_| [vertex(), vertex()]).collect();
+            let run = |constraints: &Constraints, threads| {
+                constrained(Points2::F64(&points), constraints, &by(threads)).map(|found| triangles(&found.mesh))
+            };
+            let constraints = Constraints::new().edges(&edges);
+            let [one, several] = [1, 4].map(|threads| run(&constraints, threads).map_err(|error| error.to_string()));
+            assert_eq!(several, one, "case {case}");
+            let split = constraints.split_crossings();
+            assert_eq!(run(&split, 4).unwrap(), run(&split, 1).unwrap(), "case {case}");
+        }
+    }
 }

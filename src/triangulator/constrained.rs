@@ -57,7 +57,7 @@ impl Triangulator {
     ) -> Result<Constrained2, Error> {
         let mut triangulator = self.clone();
         triangulator.options.winding = Winding::CounterClockwise;
-        let mut left = Constraining::new(points.into(), constraints)?;
+        let mut left = Constraining::new(points.into(), constraints, self.options.threads)?;
         loop {
             let mesh = triangulator.delaunay2d_async(left.points()).await?;
             if let Some(found) = left.constrain(mesh)? {

@@ -198,7 +198,7 @@ fn start(
         let seen: Vec<[f64; 2]> = vertices.iter().map(|&[x, y, _]| [x, y]).collect();
         let seen = Points2::F64(&seen);
         let constraints = named.constraints();
-        let mesh = match constrain(cpu::delaunay::<2>(seen, &own)?, seen, &constraints) {
+        let mesh = match constrain(threads, cpu::delaunay::<2>(seen, &own)?, seen, &constraints) {
             Ok(mesh) => mesh,
             Err(Unconstrained::Error(error)) => return Err(named.error(error)),
             Err(Unconstrained::Crossings(pairs)) => {
