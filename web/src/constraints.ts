@@ -63,12 +63,12 @@ function pairsOf(edges: unknown, count: number): number[] {
   if (typeof list[0] === 'number') {
     if (list.length % 2 !== 0)
       throw new GdelError('BAD_INPUT', `${list.length} indices are no edges, of two indices each`);
-    return list.map((v, i) => indexOf(v, `edge ${i >> 1}`, count));
+    return list.map((v, i) => indexOf(v, count, () => `edge ${i >> 1}`));
   }
   return list.flatMap((pair, i) => {
     const ends = Array.from(listOf(`edge ${i}`, pair, 'a pair of indices'));
     if (ends.length !== 2) throw bad(`edge ${i}`, 'a pair of indices', pair);
-    return ends.map((v) => indexOf(v, `edge ${i}`, count));
+    return ends.map((v) => indexOf(v, count, () => `edge ${i}`));
   });
 }
 
@@ -77,15 +77,15 @@ function sidesOf(rings: unknown, count: number): number[] {
   const mustBe = 'an array of rings';
   return Array.from(listOf('the option rings', rings, mustBe)).flatMap((ring, i) => {
     const vertices = Array.from(listOf(`ring ${i}`, ring, 'an array of indices'));
-    return closed(vertices.map((v) => indexOf(v, `ring ${i}`, count)));
+    return closed(vertices.map((v) => indexOf(v, count, () => `ring ${i}`)));
   });
 }
 
-function indexOf(value: unknown, where: string, count: number): number {
+function indexOf(value: unknown, count: number, where: () => string): number {
   if (!Number.isInteger(value) || (value as number) < 0 || (value as number) >= count)
     throw new GdelError(
       'BAD_INPUT',
-      `${where} has ${nameOf(value)}, which is not the index of one of the ${count} points`,
+      `${where()} has ${nameOf(value)}, which is not the index of one of the ${count} points`,
     );
   return value as number;
 }
@@ -94,7 +94,11 @@ function indexOf(value: unknown, where: string, count: number): number {
 function closed(ring: number[]): number[] {
   const { length } = ring;
   const vertices = length > 1 && ring[0] === ring[length - 1] ? ring.slice(1) : ring;
-  return vertices.flatMap((v, i) => [v, vertices[(i + 1) % vertices.length]!]);
+  const sides: number[] = [];
+  vertices.forEach((v, i) => {
+    sides.push(v, vertices[i + 1 === vertices.length ? 0 : i + 1]!);
+  });
+  return sides;
 }
 
 /** Returns the coordinates of polygons, and rings of their indices. */
