@@ -20,6 +20,7 @@ from gdel._interpolate import (
     NaturalNeighborInterpolator,
     griddata,
 )
+from gdel._tin import Tin, tin
 from gdel._voronoi import Voronoi
 
 __all__ = [
@@ -34,6 +35,7 @@ __all__ = [
     "Refinement",
     "SpanningTree",
     "Surface",
+    "Tin",
     "VerifyReport",
     "Voronoi",
     "__version__",
@@ -43,5 +45,6 @@ __all__ = [
     "minimum_spanning_tree",
     "nearest",
     "surface",
+    "tin",
     "tsearch",
 ]

@@ -12,9 +12,10 @@ import numpy.typing as npt
 
 from gdel import _gdel
 from gdel._delaunay import Delaunay, State, VerifyReport
-from gdel._points import Backend, Floats, Indices, Progress, as_floats, as_points, as_progress
+from gdel._points import Backend, Floats, Indices, Points, Progress, as_floats, as_points, as_progress
 
 Fill: TypeAlias = Literal["all", "evenodd", "nonzero", "enclosed"]
+Crossings: TypeAlias = Literal["error", "split"]
 
 _Segments: TypeAlias = npt.NDArray[np.uint32]
 
@@ -88,7 +89,7 @@ class ConstrainedDelaunay(Delaunay):
         polygons: Iterable[Any] | None = None,
         holes: npt.ArrayLike | None = None,
         fill: Fill | None = None,
-        crossings: Literal["error", "split"] = "error",
+        crossings: Crossings = "error",
         backend: Backend = "auto",
         threads: int | None = None,
         progress: Progress = None,
@@ -98,36 +99,31 @@ class ConstrainedDelaunay(Delaunay):
         if array.shape[1] != 2:
             what = "constraints are possible in 2D only"
             raise ValueError(f"points must have 2 coordinates, not {array.shape[1]}: {what}")
-        if crossings not in ("error", "split"):
-            raise ValueError(f"crossings must be 'error' or 'split', not {crossings!r}")
-        segments = _as_edges(edges, len(array))
-        boundary = [_closed(_as_indices(ring, f"rings[{i}]", len(array))) for i, ring in enumerate(rings or [])]
+        segments = as_edges(edges, len(array))
+        boundary = sides_of(rings, len(array))
         own = _positions(polygons or [])
         if own:
             array = np.vstack([array, *own]).astype(np.float64, copy=False)
             ends = np.cumsum([len(ring) for ring in own]) + (len(array) - sum(map(len, own)))
             boundary += [_closed(np.arange(end - len(ring), end)) for ring, end in zip(own, ends, strict=True)]
         has_boundary = rings is not None or polygons is not None
-        rule: Fill = fill or ("evenodd" if has_boundary else "all")
-        places = np.empty((0, 2)) if holes is None else as_points(holes, "holes")
-        if places.shape[1] != 2:
-            raise ValueError(f"holes must have 2 coordinates, not {places.shape[1]}")
-        mesh, found = _gdel.constrain(
-            array,
-            segments,
-            np.vstack([np.empty((0, 2), np.uint32), *boundary]).astype(np.uint32),
-            places.astype(np.float64),
-            rule,
-            crossings == "split",
-            backend,
-            threads,
-            as_progress(progress),
-        )
+        given = given_to(segments, boundary, holes, fill or ("evenodd" if has_boundary else "all"), crossings)
+        mesh, found = _gdel.constrain(array, given, backend, threads, as_progress(progress))
         added: Floats = found.pop("added")
         if len(added):
             array = np.vstack([array, added]).astype(np.float64, copy=False)
         self._found: dict[str, Any] = {**found, "added": np.arange(len(array) - len(added), len(array))}
         self._take(State(mesh, array), backend, threads)
+
+    @classmethod
+    def _of(
+        cls, mesh: _gdel.Mesh, points: Points, found: dict[str, Any], backend: Backend, threads: int | None
+    ) -> ConstrainedDelaunay:
+        """Return the triangulation of a mesh, with what became of the segments."""
+        result = cls.__new__(cls)
+        result._found = found
+        result._take(State(mesh, points), backend, threads)
+        return result
 
     def __repr__(self) -> str:
         """Return a short description."""
@@ -226,15 +222,13 @@ class ConstrainedDelaunay(Delaunay):
         mesh, found = state.mesh.refine(state.points, self.inside, self.segments, options)
         added: Floats = found.pop("added")
         array = np.vstack([state.points, added]).astype(np.float64, copy=False) if len(added) else state.points
-        result = type(self).__new__(type(self))
-        result._found = {
+        found = {
             **self._found,
             **found,
             "refinement": Refinement(**found["refinement"]),
             "added": np.concatenate([self.added, np.arange(len(array) - len(added), len(array))]),
         }
-        result._take(State(mesh, array), self._backend, self.threads)
-        return result
+        return self._of(mesh, array, found, self._backend, self.threads)
 
     @property
     def refinement(self) -> Refinement | None:
@@ -267,11 +261,35 @@ def _as_indices(values: npt.ArrayLike, name: str, count: int) -> npt.NDArray[np.
     return array.astype(np.int64)
 
 
-def _as_edges(edges: npt.ArrayLike | None, count: int) -> _Segments:
+def as_edges(edges: npt.ArrayLike | None, count: int) -> _Segments:
+    """Return segments between so many points."""
     array = _as_indices([] if edges is None else edges, "edges", count)
     if array.size and (array.ndim != 2 or array.shape[1] != 2):
         raise ValueError(f"edges must be rows of two indices, not an array of shape {array.shape}")
     return np.require(array.reshape(-1, 2), np.uint32, ["C"])
+
+
+def sides_of(rings: Iterable[npt.ArrayLike] | None, count: int) -> list[_Segments]:
+    """Return the sides of rings through so many points."""
+    return [_closed(_as_indices(ring, f"rings[{i}]", count)) for i, ring in enumerate(rings or [])]
+
+
+def given_to(
+    edges: _Segments, boundary: list[_Segments], holes: npt.ArrayLike | None, fill: Fill, crossings: Crossings
+) -> SimpleNamespace:
+    """Return constraints as Rust takes them."""
+    if crossings not in ("error", "split"):
+        raise ValueError(f"crossings must be 'error' or 'split', not {crossings!r}")
+    places = np.empty((0, 2)) if holes is None else as_points(holes, "holes")
+    if places.shape[1] != 2:
+        raise ValueError(f"holes must have 2 coordinates, not {places.shape[1]}")
+    return SimpleNamespace(
+        edges=edges,
+        boundary=np.vstack([np.empty((0, 2), np.uint32), *boundary]).astype(np.uint32),
+        holes=places.astype(np.float64),
+        fill=fill,
+        is_split=crossings == "split",
+    )
 
 
 def _closed(ring: npt.NDArray[Any]) -> _Segments:

@@ -15,6 +15,7 @@ __all__ = [
     "adapters",
     "constrain",
     "restore",
+    "tin",
     "triangulate",
 ]
 
@@ -90,12 +91,16 @@ def triangulate(
 ) -> Mesh: ...
 def constrain(
     points: Points,
-    edges: npt.NDArray[np.uint32],
-    boundary: npt.NDArray[np.uint32],
-    holes: Floats,
-    fill: str,
-    is_split: bool,
+    given: Any,
     backend: Backend,
+    threads: int | None,
+    progress: Callable[[str, float], object] | None,
+) -> tuple[Mesh, dict[str, Any]]: ...
+def tin(
+    points: Points,
+    given: Any,
+    max_error: float,
+    max_points: int | None,
     threads: int | None,
     progress: Callable[[str, float], object] | None,
 ) -> tuple[Mesh, dict[str, Any]]: ...

@@ -5,41 +5,52 @@ use crate::{
     compute::{self, Options},
     mesh::Mesh,
 };
-use gdel::{Constrained2, Constraints, Fill, Mesh2, RefineOptions, Refined2, Size};
+use gdel::{Constrained2, Constraints, Fill, Mesh2, RefineOptions, Refined2, Size, Tin, TinOptions};
 use numpy::{IntoPyArray, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::{exceptions::PyValueError, prelude::*, types::PyDict};
 
-/// Triangulates points with segments, and returns what became of these.
-#[pyfunction]
-#[pyo3(signature = (points, edges, boundary, holes, fill, is_split, backend, threads, progress))]
-#[expect(clippy::too_many_arguments, reason = "the package names all of them")]
-pub(crate) fn constrain<'py>(
-    py: Python<'py>,
-    points: &Bound<'py, PyAny>,
+/// Constraints of the caller.
+#[derive(FromPyObject)]
+pub(crate) struct Given<'py> {
     edges: PyReadonlyArray2<'py, u32>,
     boundary: PyReadonlyArray2<'py, u32>,
     holes: PyReadonlyArray2<'py, f64>,
-    fill: &str,
+    fill: String,
     is_split: bool,
+}
+
+impl Given<'_> {
+    fn constraints(&self) -> PyResult<Constraints> {
+        let fill = match self.fill.as_str() {
+            "all" => Fill::All,
+            "evenodd" => Fill::EvenOdd,
+            "nonzero" => Fill::NonZero,
+            "enclosed" => Fill::Enclosed,
+            fill => {
+                let what = format!("fill must be 'all', 'evenodd', 'nonzero' or 'enclosed', not {fill:?}");
+                return Err(PyValueError::new_err(what));
+            }
+        };
+        let edges = self.edges.as_slice()?.as_chunks().0;
+        let constraints = Constraints::new().edges(edges).boundary(self.boundary.as_slice()?.as_chunks().0).fill(fill);
+        let constraints = if self.is_split { constraints.split_crossings() } else { constraints };
+        Ok(self.holes.as_slice()?.as_chunks().0.iter().fold(constraints, |all, &hole| all.hole(hole)))
+    }
+}
+
+/// Triangulates points with segments, and returns what became of these.
+#[pyfunction]
+#[pyo3(signature = (points, given, backend, threads, progress))]
+pub(crate) fn constrain<'py>(
+    py: Python<'py>,
+    points: &Bound<'py, PyAny>,
+    given: Given<'py>,
     backend: &str,
     threads: Option<usize>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<(Mesh, Bound<'py, PyDict>)> {
     let options = Options::new(backend, threads, progress)?;
-    let fill = match fill {
-        "all" => Fill::All,
-        "evenodd" => Fill::EvenOdd,
-        "nonzero" => Fill::NonZero,
-        "enclosed" => Fill::Enclosed,
-        _ => {
-            let what = format!("fill must be 'all', 'evenodd', 'nonzero' or 'enclosed', not {fill:?}");
-            return Err(PyValueError::new_err(what));
-        }
-    };
-    let [edges, boundary] = [edges.as_slice()?.as_chunks().0, boundary.as_slice()?.as_chunks().0];
-    let constraints = Constraints::new().edges(edges).boundary(boundary).fill(fill);
-    let constraints = if is_split { constraints.split_crossings() } else { constraints };
-    let constraints = holes.as_slice()?.as_chunks().0.iter().fold(constraints, |all, &hole| all.hole(hole));
+    let constraints = given.constraints()?;
     let input = Input::new(points)?;
     let points = input.points()?;
     let (found, regions) = compute::triangulate(py, &options, points.len(), |by| {
@@ -47,26 +58,74 @@ pub(crate) fn constrain<'py>(
         let regions = found.triangle_regions();
         Ok((found, regions))
     })?;
-    let result = dict(py, found.inside, regions, found.segments, found.added)?;
-    result.set_item("zero_length", found.zero_length)?;
-    result.set_item("moved", found.moved)?;
+    told(py, found, regions, threads)
+}
+
+/// Makes terrain of points, and returns it with its triangulation as seen from above.
+#[pyfunction]
+#[pyo3(signature = (points, given, max_error, max_points, threads, progress))]
+pub(crate) fn tin<'py>(
+    py: Python<'py>,
+    points: &Bound<'py, PyAny>,
+    given: Given<'py>,
+    max_error: f64,
+    max_points: Option<usize>,
+    threads: Option<usize>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<(Mesh, Bound<'py, PyDict>)> {
+    let options = Options::new("cpu", threads, progress)?;
+    let constraints = given.constraints()?;
+    let input = Input::new(points)?;
+    let points = input.points()?;
+    let mut reached = TinOptions::default();
+    (reached.max_error, reached.max_points) = (max_error, max_points);
+    let (tin, regions) = compute::triangulate(py, &options, points.len(), |by| {
+        let tin = by.tin(points, &constraints, &reached)?;
+        let regions = tin.constrained.triangle_regions();
+        Ok((tin, regions))
+    })?;
+    let Tin { constrained, vertices, sources, max_error, stats, .. } = tin;
+    let (mesh, result) = told(py, constrained, regions, threads)?;
+    result.set_item("vertices", arrays::rows(py, vertices)?)?;
+    result.set_item("sources", arrays::list(py, sources))?;
+    result.set_item("max_error", max_error)?;
+    let counts = PyDict::new(py);
+    counts.set_item("start", stats.start)?;
+    counts.set_item("duplicates", stats.duplicates)?;
+    counts.set_item("other_heights", stats.other_heights)?;
+    counts.set_item("outside", stats.outside)?;
+    counts.set_item("limited", stats.limited)?;
+    result.set_item("stats", counts)?;
+    Ok((mesh, result))
+}
+
+/// Returns the mesh, and what became of segments as the package takes it.
+fn dict(
+    py: Python<'_>,
+    found: Constrained2,
+    regions: Vec<u32>,
+    threads: Option<usize>,
+) -> PyResult<(Mesh, Bound<'_, PyDict>)> {
+    let result = PyDict::new(py);
+    result.set_item("inside", found.inside.into_pyarray(py))?;
+    result.set_item("regions", arrays::list(py, regions))?;
+    result.set_item("segments", arrays::index_rows(py, found.segments)?)?;
+    result.set_item("added", arrays::rows(py, found.added)?)?;
     Ok((Mesh::two(found.mesh, threads), result))
 }
 
-/// Returns what became of segments, as the package takes it.
-fn dict(
+/// Does the same for segments that the caller has given.
+fn told(
     py: Python<'_>,
-    inside: Vec<bool>,
+    found: Constrained2,
     regions: Vec<u32>,
-    segments: Vec<[u32; 2]>,
-    added: Vec<[f64; 2]>,
-) -> PyResult<Bound<'_, PyDict>> {
-    let result = PyDict::new(py);
-    result.set_item("inside", inside.into_pyarray(py))?;
-    result.set_item("regions", arrays::list(py, regions))?;
-    result.set_item("segments", arrays::index_rows(py, segments)?)?;
-    result.set_item("added", arrays::rows(py, added)?)?;
-    Ok(result)
+    threads: Option<usize>,
+) -> PyResult<(Mesh, Bound<'_, PyDict>)> {
+    let (zero_length, moved) = (found.zero_length, found.moved);
+    let (mesh, result) = dict(py, found, regions, threads)?;
+    result.set_item("zero_length", zero_length)?;
+    result.set_item("moved", moved)?;
+    Ok((mesh, result))
 }
 
 /// To what a mesh is refined: one size, or one for each point, or none.
@@ -108,7 +167,7 @@ pub(crate) fn refine<'py>(
         Ok((refined, regions))
     })?;
     let Refined2 { constrained: found, segment_of, stats, .. } = refined;
-    let result = dict(py, found.inside, regions, found.segments, found.added)?;
+    let (mesh, result) = dict(py, found, regions, threads)?;
     result.set_item("segment_of", arrays::list(py, segment_of))?;
     let counts = PyDict::new(py);
     counts.set_item("points_on_segments", stats.points_on_segments)?;
@@ -120,5 +179,5 @@ pub(crate) fn refine<'py>(
     counts.set_item("too_large", stats.left.too_large)?;
     counts.set_item("limited", stats.limited)?;
     result.set_item("refinement", counts)?;
-    Ok((Mesh::two(found.mesh, threads), result))
+    Ok((mesh, result))
 }

@@ -43,5 +43,6 @@ fn gdel_module(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(adapters, module)?)?;
     module.add_function(wrap_pyfunction!(mesh::triangulate, module)?)?;
     module.add_function(wrap_pyfunction!(constrained::constrain, module)?)?;
+    module.add_function(wrap_pyfunction!(constrained::tin, module)?)?;
     module.add_function(wrap_pyfunction!(mesh::restore, module)?)
 }
