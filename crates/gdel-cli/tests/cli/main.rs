@@ -1,6 +1,11 @@
 //! The command `gdel` as its users meet it.
 
 mod constrain;
+// The program itself has no harness, so its own tests run here.
+#[cfg(feature = "decimate")]
+#[path = "../../src/decimate.rs"]
+#[expect(dead_code, reason = "its tests only")]
+mod decimate;
 mod derived;
 mod inputs;
 mod outputs;
