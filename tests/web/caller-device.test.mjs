@@ -20,17 +20,19 @@ const gpu = create([]);
 const gdel = await importFrom(project());
 const { createTriangulator, delaunay2d, delaunay3d, generate, generate2d } = gdel;
 
-const adapter = await gpu.requestAdapter();
-const { maxBufferSize, maxStorageBufferBindingSize } = adapter.limits;
-// One for all tests: the driver takes long to compile the kernels. The last test loses it.
-const device = await adapter.requestDevice({
-  requiredLimits: { maxBufferSize, maxStorageBufferBindingSize },
-});
-const errors = [];
-device.addEventListener('uncapturederror', ({ error }) => errors.push(error.message));
-const triangulator = await createTriangulator({ device, backend: 'gpu' });
+async function openDevice() {
+  const adapter = await gpu.requestAdapter();
+  const { maxBufferSize, maxStorageBufferBindingSize } = adapter.limits;
+  return adapter.requestDevice({ requiredLimits: { maxBufferSize, maxStorageBufferBindingSize } });
+}
 
-test('with the caller’s device, a worker splays', { timeout: 600_000 }, async () => {
+test('with the caller’s device, a worker splays', {
+  timeout: 600_000,
+}, async () => {
+  const device = await openDevice();
+  const errors = [];
+  device.addEventListener('uncapturederror', ({ error }) => errors.push(error.message));
+  const triangulator = await createTriangulator({ device, backend: 'gpu' });
   const { thread, whyThread } = triangulator.info;
   assert.deepEqual([thread, whyThread], ['worker', null]);
 
@@ -82,34 +84,14 @@ test('with the caller’s device, a worker splays', { timeout: 600_000 }, async 
   assert.deepEqual(Object.keys(same.stats), Object.keys(mesh.stats));
   assert.deepEqual(errors, []);
   here.dispose();
-  // It is not closed with a triangulator.
+  triangulator.dispose();
+  // It is not closed with its triangulators.
   assert.equal((await resident.read('hull')).length % 3, 0);
 });
 
-test('what the worker has dropped is garbage here, too', { timeout: 600_000 }, async () => {
-  setFlagsFromString('--expose-gc');
-  const collectGarbage = runInNewContext('gc');
-  const create = device.createBuffer.bind(device);
-  const created = [];
-  const createBuffer = (descriptor) => {
-    const buffer = create(descriptor);
-    created.push(new WeakRef(buffer));
-    return buffer;
-  };
-  Object.defineProperty(device, 'createBuffer', { value: createBuffer, configurable: true });
-  const points = await generate('uniform', 1000, { seed: 7 });
-  // Each number of points has buffers of its own. The worker does not collect its garbage meanwhile.
-  for (let count = 300; count < 310; count++)
-    await triangulator.delaunay3d(points.slice(0, 3 * count));
-  // What a promise has just been fulfilled with is alive until the next turn.
-  await new Promise((resolve) => setImmediate(resolve));
-  collectGarbage();
-  const alive = created.filter((reference) => reference.deref()).length;
-  assert.ok(alive < created.length / 2, `${alive} of ${created.length} buffers`);
-  delete device.createBuffer;
-});
-
 test('aborts, and the loss of the caller’s device', { timeout: 600_000 }, async () => {
+  const device = await openDevice();
+  const triangulator = await createTriangulator({ device, backend: 'gpu' });
   const points = await generate('uniform', 1000, { seed: 6 });
   const mesh = await triangulator.delaunay3d(points, { resident: true });
   for (const phase of ['lattice', 'phase 1', 'splay', 'finish']) {
@@ -143,4 +125,29 @@ test('aborts, and the loss of the caller’s device', { timeout: 600_000 }, asyn
   await assert.rejects(mesh.read('hull'), ({ code }) => ['DEVICE_LOST', 'GPU'].includes(code));
   triangulator.dispose();
   await assert.rejects(triangulator.delaunay3d(points), { code: 'DISPOSED' });
+});
+
+test('what the worker has dropped is garbage here, too', { timeout: 600_000 }, async () => {
+  setFlagsFromString('--expose-gc');
+  const collectGarbage = runInNewContext('gc');
+  const device = await openDevice();
+  const create = device.createBuffer.bind(device);
+  const created = [];
+  const createBuffer = (descriptor) => {
+    const buffer = create(descriptor);
+    created.push(new WeakRef(buffer));
+    return buffer;
+  };
+  Object.defineProperty(device, 'createBuffer', { value: createBuffer });
+  const triangulator = await createTriangulator({ device, backend: 'gpu' });
+  const points = await generate('uniform', 1000, { seed: 7 });
+  // Each number of points has buffers of its own. The worker does not collect its garbage meanwhile.
+  for (let count = 300; count < 310; count++)
+    await triangulator.delaunay3d(points.slice(0, 3 * count));
+  // What a promise has just been fulfilled with is alive until the next turn.
+  await new Promise((resolve) => setImmediate(resolve));
+  collectGarbage();
+  const alive = created.filter((reference) => reference.deref()).length;
+  assert.ok(alive < created.length / 2, `${alive} of ${created.length} buffers`);
+  triangulator.dispose();
 });

@@ -65,10 +65,6 @@ async function isDestroyed(device, buffer) {
 for (const [key, { triangulate, generate, arrays, count }] of Object.entries(DIMENSIONS)) {
   const D = Number(key);
   const [simplices, neighbors] = arrays;
-  // One device for all tests of a dimension: the driver takes long to compile the kernels.
-  const { device, errors } = await openDevice();
-  const triangulator = await createTriangulator({ device, backend: 'gpu' });
-  const run = (points, options) => triangulator[`delaunay${D}d`](points, options);
 
   /** The mesh is that of a run from scratch on these points. */
   async function assertIsMeshOf(mesh, points) {
@@ -89,6 +85,9 @@ for (const [key, { triangulate, generate, arrays, count }] of Object.entries(DIM
   }
 
   test(`${D}D: a mesh on the device follows its points`, { timeout: 600_000 }, async () => {
+    const { device, errors } = await openDevice();
+    const triangulator = await createTriangulator({ device, backend: 'gpu' });
+    const run = (points, options) => triangulator[`delaunay${D}d`](points, options);
     const random = randomFrom(D);
     let points = await generate('uniform', 500, { seed: 3 });
     points.copyWithin(D * 499, 0, D);
@@ -129,49 +128,17 @@ for (const [key, { triangulate, generate, arrays, count }] of Object.entries(DIM
     await assertIsMeshOf(mesh, points);
     assert.equal(mesh.stats.update.restarted, 'degenerate');
     assert.deepEqual(errors, []);
-    mesh.destroy();
-  });
-
-  test(`${D}D: the GPU keeps what it has updated`, { timeout: 600_000 }, async () => {
-    const random = randomFrom(2);
-    let points = await generate('uniform', 300, { seed: 5 });
-    const [mesh, other] = [await run(points), await run(points)];
-    const steps = [];
-    for (const which of [mesh, mesh, mesh, other, mesh, mesh]) {
-      points = move(points, D, 1e-3, random);
-      await which.update(points);
-      const expected = await triangulate(points, { backend: 'cpu' });
-      assert.equal(canonical(which[simplices], D + 1), canonical(expected[simplices], D + 1));
-      assert.equal(which[neighbors].length, expected[neighbors].length);
-      assert.equal(which.hull.length, expected.hull.length);
-      assert.deepEqual(which.duplicateOf, expected.duplicateOf);
-      assert.deepEqual([which.stats.backend, which.stats.fallback], ['gpu', null]);
-      steps.push(which.stats.update.restarted);
-    }
-    assert.deepEqual(steps, ['not-resident', null, null, 'not-resident', 'not-resident', null]);
-
-    // After an error, too, and not after another run.
-    const holed = points.slice();
-    holed[3] = Number.NaN;
-    await assert.rejects(mesh.update(holed), { code: 'NOT_FINITE' });
-    await assert.rejects(mesh.update(points.slice(D)), { code: 'BAD_INPUT' });
-    await mesh.update(points);
-    assert.equal(mesh.stats.update.restarted, null);
-    await run(points);
-    await mesh.update(points);
-    assert.equal(mesh.stats.update.restarted, 'not-resident');
-
-    // What the CPU has to make is the CPU's from then on.
-    const flat = points.map((x, i) => (i % D === 0 ? 0.5 : x));
-    await mesh.update(flat);
-    assert.deepEqual([mesh.dimension, mesh.stats.backend], [D - 1, 'cpu']);
-    await mesh.update(points);
-    assert.equal(mesh.stats.update.restarted, 'not-resident');
+    triangulator.dispose();
+    await assert.rejects(mesh.update(points), { code: 'DISPOSED' });
+    await assertIsMeshOf(mesh, points);
   });
 
   test(`${D}D: after an error the mesh on the device is what it was`, {
     timeout: 600_000,
   }, async () => {
+    const { device, errors } = await openDevice();
+    const triangulator = await createTriangulator({ device, backend: 'gpu' });
+    const run = (points, options) => triangulator[`delaunay${D}d`](points, options);
     const points = await generate('uniform', 300, { seed: 4 });
     const moved = move(points, D, 1e-3, randomFrom(1));
     const mesh = await run(points, { resident: true });
@@ -224,19 +191,52 @@ for (const [key, { triangulate, generate, arrays, count }] of Object.entries(DIM
     assert.ok(await isDestroyed(device, last[simplices]));
     assert.deepEqual(errors, []);
 
-    // A mesh outlasts its triangulator, but is not updated any more.
-    const other = await createTriangulator({ device });
-    const left = await other[`delaunay${D}d`](points, { resident: true, backend: 'cpu' });
-    other.dispose();
-    await assert.rejects(left.update(moved), { code: 'DISPOSED' });
-    await assertIsMeshOf(left, points);
-
     // The device gets lost: before an update, and in the middle of one.
     const doomed = await run(points, { resident: true });
     const during = doomed.update(moved, { onProgress: () => device.destroy() });
     const isLoss = ({ code }) => ['DEVICE_LOST', 'GPU'].includes(code);
     await assert.rejects(during, isLoss);
     await assert.rejects(doomed.update(moved), isLoss);
+    triangulator.dispose();
+  });
+
+  test(`${D}D: the GPU keeps what it has updated`, { timeout: 600_000 }, async () => {
+    const triangulator = await createTriangulator({ gpu, backend: 'gpu' });
+    const run = (points) => triangulator[`delaunay${D}d`](points);
+    const random = randomFrom(2);
+    let points = await generate('uniform', 300, { seed: 5 });
+    const [mesh, other] = [await run(points), await run(points)];
+    const steps = [];
+    for (const which of [mesh, mesh, mesh, other, mesh, mesh]) {
+      points = move(points, D, 1e-3, random);
+      await which.update(points);
+      const expected = await triangulate(points, { backend: 'cpu' });
+      assert.equal(canonical(which[simplices], D + 1), canonical(expected[simplices], D + 1));
+      assert.equal(which[neighbors].length, expected[neighbors].length);
+      assert.equal(which.hull.length, expected.hull.length);
+      assert.deepEqual(which.duplicateOf, expected.duplicateOf);
+      assert.deepEqual([which.stats.backend, which.stats.fallback], ['gpu', null]);
+      steps.push(which.stats.update.restarted);
+    }
+    assert.deepEqual(steps, ['not-resident', null, null, 'not-resident', 'not-resident', null]);
+
+    // After an error, too, and not after another run.
+    const holed = points.slice();
+    holed[3] = Number.NaN;
+    await assert.rejects(mesh.update(holed), { code: 'NOT_FINITE' });
+    await assert.rejects(mesh.update(points.slice(D)), { code: 'BAD_INPUT' });
+    await mesh.update(points);
+    assert.equal(mesh.stats.update.restarted, null);
+    await run(points);
+    await mesh.update(points);
+    assert.equal(mesh.stats.update.restarted, 'not-resident');
+
+    // What the CPU has to make is the CPU's from then on.
+    const flat = points.map((x, i) => (i % D === 0 ? 0.5 : x));
+    await mesh.update(flat);
+    assert.deepEqual([mesh.dimension, mesh.stats.backend], [D - 1, 'cpu']);
+    await mesh.update(points);
+    assert.equal(mesh.stats.update.restarted, 'not-resident');
     triangulator.dispose();
   });
 }
