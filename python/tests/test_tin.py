@@ -68,7 +68,7 @@ def test_bad_input_is_said() -> None:
     for error in (-1, np.nan):
         with pytest.raises(ValueError, match="largest error"):
             gdel.tin(valley(), max_error=error)
-    with pytest.raises(ValueError, match="row 1"):
+    with pytest.raises(ValueError, match="point 1"):
         gdel.tin([(0, 0, 0), (1, np.nan, 0), (0, 1, 0)])
     with pytest.raises(ValueError, match="edges has 400"):
         gdel.tin(valley(), edges=[(0, 400)])
