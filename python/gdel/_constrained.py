@@ -225,6 +225,9 @@ class ConstrainedDelaunay(Delaunay):
         found = {
             **self._found,
             **found,
+            # Of the segments that were given.
+            "zero_length": self.zero_length,
+            "moved": self.moved,
             "refinement": Refinement(**found["refinement"]),
             "added": np.concatenate([self.added, np.arange(len(array) - len(added), len(array))]),
         }

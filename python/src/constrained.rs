@@ -58,7 +58,7 @@ pub(crate) fn constrain<'py>(
         let regions = found.triangle_regions();
         Ok((found, regions))
     })?;
-    told(py, found, regions, threads)
+    dict(py, found, regions, threads)
 }
 
 /// Makes terrain of points, and returns it with its triangulation as seen from above.
@@ -85,7 +85,7 @@ pub(crate) fn tin<'py>(
         Ok((tin, regions))
     })?;
     let Tin { constrained, vertices, sources, max_error, stats, .. } = tin;
-    let (mesh, result) = told(py, constrained, regions, threads)?;
+    let (mesh, result) = dict(py, constrained, regions, threads)?;
     result.set_item("vertices", arrays::rows(py, vertices)?)?;
     result.set_item("sources", arrays::list(py, sources))?;
     result.set_item("max_error", max_error)?;
@@ -111,21 +111,9 @@ fn dict(
     result.set_item("regions", arrays::list(py, regions))?;
     result.set_item("segments", arrays::index_rows(py, found.segments)?)?;
     result.set_item("added", arrays::rows(py, found.added)?)?;
+    result.set_item("zero_length", found.zero_length)?;
+    result.set_item("moved", found.moved)?;
     Ok((Mesh::two(found.mesh, threads), result))
-}
-
-/// Does the same for segments that the caller has given.
-fn told(
-    py: Python<'_>,
-    found: Constrained2,
-    regions: Vec<u32>,
-    threads: Option<usize>,
-) -> PyResult<(Mesh, Bound<'_, PyDict>)> {
-    let (zero_length, moved) = (found.zero_length, found.moved);
-    let (mesh, result) = dict(py, found, regions, threads)?;
-    result.set_item("zero_length", zero_length)?;
-    result.set_item("moved", moved)?;
-    Ok((mesh, result))
 }
 
 /// To what a mesh is refined: one size, or one for each point, or none.

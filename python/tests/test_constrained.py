@@ -217,3 +217,12 @@ def test_refinement_of_what_cannot_be_refined() -> None:
     for wrong in cases:
         with pytest.raises(ValueError, match=r"must be|there are"):
             tri.refine(**wrong)
+
+
+def test_refinement_keeps_what_became_of_segments() -> None:
+    points = [(0, 0), (3, 0), (3, 3), (0, 3), (1, 0.1)]
+    tri = gdel.ConstrainedDelaunay(points, edges=[(0, 2), (4, 3), (1, 1)], crossings="split")
+    assert tri.zero_length == 1
+    assert tri.moved > 0
+    fine = tri.refine(min_angle=25)
+    assert (fine.zero_length, fine.moved) == (tri.zero_length, tri.moved)

@@ -11,7 +11,7 @@
 //! A piece that crosses a constrained edge is left out, and the crossing noted.
 //!
 //! Several threads insert at once, each in a part of the triangles. What needs triangles of other parts is left until
-//! one thread has all of them. The triangulation does not depend on the order, so that there is nothing to agree on.
+//! one thread has all of them. The triangulation does not depend on the order, so threads need not agree on one.
 
 use super::topology::{Part, next, previous};
 use crate::{index::NONE, predicates::Sign};
@@ -33,7 +33,7 @@ pub(super) struct Inserted {
 }
 
 impl Inserted {
-    /// Adds what is said elsewhere, which is empty then.
+    /// Moves all that another one says to the end of this one.
     pub(super) fn append(&mut self, other: &mut Self) {
         self.pieces.append(&mut other.pieces);
         self.crossings.append(&mut other.crossings);
@@ -165,6 +165,7 @@ impl Turn {
 enum Stop {
     /// It needs triangles that are elsewhere. Nothing has been changed.
     Elsewhere,
+    /// A way that should be there is not.
     Lost,
 }
 

@@ -45,7 +45,7 @@ impl<'a> Marked<'a> {
             start[v as usize].store(e, Relaxed);
         }
         let marks = mesh.triangles.iter().map(|_| AtomicU8::new(0)).collect();
-        // These are the same memory.
+        // Both collections reuse the memory of the lists.
         let shared =
             |list: &mut Vec<[u32; 3]>| std::mem::take(list).into_iter().map(|row| row.map(AtomicU32::new)).collect();
         Marked { points, triangles: shared(&mut mesh.triangles), halfedges: shared(&mut mesh.halfedges), marks, start }
@@ -67,13 +67,13 @@ impl<'a> Marked<'a> {
         self.part(&[], 0)
     }
 
-    /// Returns the triangles that have this owner. Only one thread may have them.
+    /// Returns the triangles of one owner. Only one thread at a time may change them.
     pub(super) fn part<'m>(&'m self, owners: &'m [u8], own: u8) -> Part<'m> {
         Part { mesh: self, owners, own, pending: Vec::new(), elsewhere: Vec::new() }
     }
 
-    /// Returns the owner of each triangle, of as many as there are segments of this list: strips across the direction in
-    /// which the starts of these segments are spread more, with as many of them in each.
+    /// Assigns each triangle to one of `count` owners, and returns these. An owner has the triangles whose first vertex is
+    /// in its strip of the plane. Strips lie across the axis along which `starts` are spread more, and divide them evenly.
     pub(super) fn owners(&self, threads: Threads, count: usize, starts: impl Iterator<Item = u32>) -> Vec<u8> {
         let mut places: Vec<[f64; 2]> = starts.map(|v| self.points.get(v as usize)).collect();
         let spread = |axis: usize| {

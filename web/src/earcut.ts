@@ -45,7 +45,7 @@ export function earcut(
     points[2 * i + 1] = vertices[dimensions * i + 1]!;
   }
   const mesh = delaunay2dSync(points, { rings: ringsOf(count, holes) });
-  return Array.from(mesh.insideTriangles().reverse());
+  return Array.from(mesh.insideTriangles()).reverse();
 }
 
 /** Loads the WebAssembly module that {@link earcut} needs. Later calls do nothing. */

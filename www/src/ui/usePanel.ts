@@ -35,15 +35,11 @@ export function usePanel(page: Page): Part {
   const tell = async () => {
     if (byId('use').hidden) return;
     const own = ++asked;
-    let code: string;
-    try {
-      const { codeFor } = await import('./code');
-      const polygons = page.summary?.given === undefined ? null : await page.model.constrained();
-      code = codeFor(page.settings, page.summary, polygons);
-    } catch (error) {
-      code = `// ${complaintAbout('The code', error)}`;
-    }
-    if (own === asked) byId('code').textContent = code;
+    const { codeFor } = await import('./code').catch((error: unknown) => ({
+      codeFor: () => `// ${complaintAbout('The code', error)}`,
+    }));
+    const polygons = page.summary?.given === undefined ? null : await page.model.constrained();
+    if (own === asked) byId('code').textContent = codeFor(page.settings, page.summary, polygons);
   };
   return {
     changed: () => void tell(),
