@@ -25,11 +25,11 @@ const WIDTHS: [&str; 2] = ["narrow", "wide"];
 /// members, and ends before the second one, an array as long as there is room.
 const CONTROL: (&str, &str, &str) = ("Control", "iteration", "free");
 
-/// Kernels that modules of WebAssembly do without: those for queries, which only native programs ask.
-const NATIVE: [&str; 2] = ["query_", "edges_"];
+/// Kernels that modules of WebAssembly do without: those for questions that only native programs ask.
+const NATIVE: [&str; 3] = ["query_", "edges_", "survivors_"];
 /// Kernels of 3D that there are only for whole arrays: those that look at the mesh of the caller, and
 /// that of iterations in one workgroup, of which a run with so many points has few.
-const WHOLE: [&str; 3] = ["flip_few", "query_", "edges_"];
+const WHOLE: [&str; 4] = ["flip_few", "query_", "edges_", "survivors_"];
 
 /// The file with the products of limbs, and that which takes its place on devices with 64-bit integers.
 const MULTIPLY: [&str; 2] = ["arithmetic/multiply", "arithmetic/multiply_int64"];

@@ -53,7 +53,8 @@ tests.on('test:fail', () => {
 // The report tells of a file once those before it have ended: this says at once how far the tests are.
 tests.on('test:complete', ({ name, file, details: { passed, duration_ms } }) => {
   if (name !== file) return;
-  const seconds = Math.round(duration_ms / 1000);
-  console.error(`${relative(root, file)} has ${passed ? 'passed' : 'failed'} in ${seconds} s`);
+  const [seconds, sinceStart] = [duration_ms / 1000, performance.now() / 1000].map(Math.round);
+  const verdict = passed ? 'passed' : 'failed';
+  console.error(`${relative(root, file)} has ${verdict} in ${seconds} s, ${sinceStart} s after the start`);
 });
 tests.compose(spec).pipe(process.stdout);

@@ -65,10 +65,11 @@ test_python() {
 
 # Runs a step of the crate and one of the package and the page at the same time, since neither keeps
 # all processors busy. What the second one prints comes after the first one, except for what it says of its progress on
-# standard error; it is left out where only the first one failed, so that the failure is the last thing that is said.
+# standard error, which is shown at once; it is left out where only the first one failed, so that the failure is the last
+# thing that is said.
 both() {
   local log=$scratch/$2 first=passed second=passed
-  "$2" >"$log" &
+  "$2" 2>&1 >"$log" &
   local beside=$!
   "$1" || first=failed
   wait "$beside" || second=failed

@@ -181,21 +181,43 @@ struct Shared {
     progress: Mutex<Option<Progress>>,
 }
 
-/// Runs a triangulation of so many points. A long one runs in a thread of its own, while this one looks for Ctrl-C and
-/// reports progress.
+/// What reports progress and can be cancelled.
+pub(crate) trait Reporting: Sync + Sized {
+    /// Sets what is called during runs, as [`Triangulator::on_progress`] does.
+    fn reporting_to(self, on_progress: impl Fn(Progress) -> ControlFlow<()> + Send + Sync + 'static) -> Self;
+}
+
+impl Reporting for Triangulator {
+    fn reporting_to(self, on_progress: impl Fn(Progress) -> ControlFlow<()> + Send + Sync + 'static) -> Self {
+        self.on_progress(on_progress)
+    }
+}
+
+/// Runs a triangulation of so many points.
 pub(crate) fn triangulate<T: Send>(
     py: Python<'_>,
     options: &Options,
     points: usize,
     work: impl FnOnce(&Triangulator) -> Result<T, Error> + Send,
 ) -> PyResult<T> {
-    let triangulator = options.triangulator(py, points)?;
+    triangulate_by(py, options, options.triangulator(py, points)?, points, work)
+}
+
+/// Runs a triangulation of so many points by what the caller has chosen. A long one runs in a thread of its own, while
+/// this one looks for Ctrl-C and reports progress.
+pub(crate) fn triangulate_by<B: Reporting, T: Send>(
+    py: Python<'_>,
+    options: &Options,
+    triangulator: B,
+    points: usize,
+    work: impl FnOnce(&B) -> Result<T, Error> + Send,
+) -> PyResult<T> {
     if points < SHORT && options.progress.is_none() {
         return run(py, options.threads, || work(&triangulator));
     }
     let shared = Arc::new(Shared::default());
     let of_run = shared.clone();
-    let triangulator = triangulator.on_progress(move |progress| {
+    let triangulator = triangulator.reporting_to(move |progress| {
         *of_run.progress.lock().unwrap_or_else(PoisonError::into_inner) = Some(progress);
         if of_run.is_cancelled.load(Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });

@@ -6,6 +6,8 @@ mod arrays;
 mod compute;
 mod constrained;
 mod core;
+#[cfg(target_os = "linux")]
+mod cuda;
 mod derived;
 mod errors;
 mod mesh;
@@ -40,6 +42,13 @@ fn gdel_module(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("CrossingError", module.py().get_type::<errors::CrossingError>())?;
     module.add_class::<mesh::Mesh>()?;
     module.add_class::<tree::Tree>()?;
+    #[cfg(target_os = "linux")]
+    {
+        module.add_class::<cuda::CudaMesh>()?;
+        module.add_class::<cuda::CudaArray>()?;
+        module.add_class::<cuda::MeshArray>()?;
+        module.add_function(wrap_pyfunction!(cuda::triangulate_cuda, module)?)?;
+    }
     module.add_function(wrap_pyfunction!(adapters, module)?)?;
     module.add_function(wrap_pyfunction!(mesh::triangulate, module)?)?;
     module.add_function(wrap_pyfunction!(constrained::constrain, module)?)?;

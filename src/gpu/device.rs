@@ -145,7 +145,15 @@ impl Gpu {
     /// [`Error::AdapterNotFound`] when there is none of that index or name.
     pub async fn open(choice: &AdapterChoice) -> Result<Self, Error> {
         let instance = instance();
-        let adapter = choose(&instance, choice).await?;
+        Gpu::on(&choose(&instance, choice).await?).await
+    }
+
+    /// Opens an adapter that somebody has chosen.
+    ///
+    /// # Errors
+    ///
+    /// Returns [`Error::NoAdapter`] when it gives no device.
+    pub async fn on(adapter: &wgpu::Adapter) -> Result<Self, Error> {
         let limits = adapter.limits();
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("gdel"),

@@ -44,6 +44,8 @@ pub mod self_test;
 pub mod shader;
 pub mod start;
 pub(crate) mod steps;
+#[cfg(not(target_arch = "wasm32"))]
+mod survivors;
 pub mod update;
 pub(crate) mod vertex_simplices;
 

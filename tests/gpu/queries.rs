@@ -267,6 +267,54 @@ fn values_at_vertices_and_beside_what_is_no_number() {
     assert_eq!(locator.interpolate_buffer(upload(&values[..9]).buffer(), queries.buffer()).unwrap_err(), error);
 }
 
+/// Compares which simplices of a mesh another one also has with what their vertices say. Returns how many these are.
+fn check_survivors<const N: usize>(gpu: &Gpu, found: &wgpu::Buffer, simplices: [&[[u32; N]]; 2]) -> usize {
+    let key = |simplex: &[u32; N]| {
+        let mut key = *simplex;
+        key.sort_unstable();
+        key
+    };
+    let [before, after] = simplices;
+    let places: std::collections::HashMap<_, _> = before.iter().map(key).zip(0..).collect();
+    let expected: Vec<i32> = after.iter().map(|simplex| places.get(&key(simplex)).copied().unwrap_or(-1)).collect();
+    // Empty arrays have buffers of 16 bytes.
+    assert_eq!(read(gpu, found)[..after.len()], expected);
+    expected.iter().filter(|&&survivor| survivor >= 0).count()
+}
+
+/// Moves every seventh point.
+fn moved<const D: usize>(points: &[[f64; D]]) -> Vec<[f64; D]> {
+    let next = points.iter().cycle().skip(1);
+    let mix = |(i, (a, b)): (usize, (&[f64; D], &[f64; D]))| {
+        if i % 7 == 0 { std::array::from_fn(|k| a[k] + 0.01 * (b[k] - a[k])) } else { *a }
+    };
+    points.iter().zip(next).enumerate().map(mix).collect()
+}
+
+#[test]
+fn survivors_are_the_simplices_with_the_same_vertices() {
+    let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("lavapipe or a GPU");
+    let device = on(&gpu).device().expect("opens");
+    let (mut survived, mut gone) = (0, 0);
+    for (name, points) in inputs3() {
+        let [before, after] = [points.clone(), moved(&points)].map(|points| device.delaunay3d(&points).unwrap());
+        let meshes = [&before, &after].map(|mesh| mesh.read(Outputs::SIMPLICES).unwrap());
+        let found = after.survivors(before.simplices()).unwrap();
+        let count = check_survivors(&gpu, &found, [&meshes[0].tetrahedra, &meshes[1].tetrahedra]);
+        println!("{name}: {count} of {}", meshes[1].tetrahedra.len());
+        (survived, gone) = (survived + count, gone + meshes[1].tetrahedra.len() - count);
+    }
+    for (name, points) in inputs2() {
+        let [before, after] = [points.clone(), moved(&points)].map(|points| device.delaunay2d(&points).unwrap());
+        let meshes = [&before, &after].map(|mesh| mesh.read(Outputs::SIMPLICES).unwrap());
+        let found = after.survivors(before.simplices()).unwrap();
+        let count = check_survivors(&gpu, &found, [&meshes[0].triangles, &meshes[1].triangles]);
+        println!("{name}: {count} of {}", meshes[1].triangles.len());
+        (survived, gone) = (survived + count, gone + meshes[1].triangles.len() - count);
+    }
+    assert!(survived > 1000 && gone > 1000, "{survived} survived, {gone} are gone");
+}
+
 /// Compares nearest vertices, edges and neighbours with those of the host. Returns how many queries
 /// the host has answered.
 macro_rules! check_nearest {
