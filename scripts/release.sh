@@ -27,7 +27,7 @@ case ${1:-} in
     ;;
   crate)
     shift
-    cargo publish --locked -p gdel -p gdel-io -p gdel-cli "$@"
+    cargo publish --locked -p gdel -p gdel-io -p gdel-cli -p gdel-cuda "$@"
     ;;
   npm)
     shift

@@ -127,6 +127,21 @@ mod tests {
     }
 
     #[test]
+    fn results_come_in_order() {
+        for threads in [Threads::One, Threads::All] {
+            let mut items: Vec<String> = (0..1000).map(|i| i.to_string()).collect();
+            let lengths = map_mut(threads, &mut items, |i, item| {
+                item.push('!');
+                (i, item.len())
+            });
+            assert!(lengths.into_iter().eq((0..1000).map(|i: usize| (i, i.to_string().len() + 1))));
+            let (mut one, mut other) = (0, "left");
+            let results = both(threads, || std::mem::replace(&mut one, 5), || std::mem::replace(&mut other, "right"));
+            assert_eq!((results, one, other), ((0, "left"), 5, "right"));
+        }
+    }
+
+    #[test]
     fn every_element_is_visited_once() {
         for len in [0, 1, CHUNK - 1, CHUNK, CHUNK + 1, 5 * CHUNK + 7] {
             for threads in [Threads::One, Threads::All] {

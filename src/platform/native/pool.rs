@@ -6,14 +6,51 @@ use crate::{
 };
 use rayon::prelude::*;
 #[cfg(feature = "gpu")]
-use std::sync::{Arc, Mutex, PoisonError};
-use std::{cmp::Ordering, num::NonZeroUsize, ops::Range};
+use std::sync::Arc;
+use std::{
+    cmp::Ordering,
+    num::NonZeroUsize,
+    ops::Range,
+    sync::{Mutex, PoisonError},
+};
+
+/// Calls `work` with each number below `count`, on all threads. Compiled once: what is compiled for each kind of work stays
+/// small, here and in every program that uses this crate.
+fn for_each(count: usize, work: &(dyn Fn(usize) + Sync)) {
+    (0..count).into_par_iter().with_max_len(1).for_each(work);
+}
+
+/// Calls `work` with each item and its index, on all threads, and returns the results in order.
+fn map_each<T: Send, R: Send>(items: impl Iterator<Item = T>, work: impl Fn(usize, T) -> R + Sync) -> Vec<R> {
+    // Who comes to an item takes it and leaves the result.
+    let slots: Vec<Mutex<Slot<T, R>>> = items.map(|item| Mutex::new(Slot::Item(item))).collect();
+    for_each(slots.len(), &|i| {
+        let slot = || slots[i].lock().unwrap_or_else(PoisonError::into_inner);
+        let taken = std::mem::replace(&mut *slot(), Slot::Taken);
+        if let Slot::Item(item) = taken {
+            let result = work(i, item);
+            *slot() = Slot::Result(result);
+        }
+    });
+    let result = |slot: Mutex<_>| match slot.into_inner().unwrap_or_else(PoisonError::into_inner) {
+        Slot::Result(result) => Some(result),
+        Slot::Item(_) | Slot::Taken => None,
+    };
+    slots.into_iter().filter_map(result).collect()
+}
+
+/// An item, then what has become of it.
+enum Slot<T, R> {
+    Item(T),
+    Taken,
+    Result(R),
+}
 
 /// Calls `work` with every chunk of `items` and the index of its first element.
 pub(crate) fn for_chunks<T: Send>(threads: Threads, items: &mut [T], work: impl Fn(usize, &mut [T]) + Sync) {
     match threads {
         Threads::All if items.len() > CHUNK => {
-            items.par_chunks_mut(CHUNK).enumerate().for_each(|(i, chunk)| work(i * CHUNK, chunk));
+            map_each(items.chunks_mut(CHUNK), |i, chunk| work(i * CHUNK, chunk));
         }
         _ => work(0, items),
     }
@@ -25,7 +62,7 @@ pub(crate) fn for_parts<T: Send>(threads: Threads, items: &mut [T], work: impl F
     match threads {
         Threads::All if !items.is_empty() => {
             let len = items.len().div_ceil(count(threads));
-            items.par_chunks_mut(len).enumerate().for_each(|(i, part)| work(i * len, part));
+            map_each(items.chunks_mut(len), |i, part| work(i * len, part));
         }
         _ => work(0, items),
     }
@@ -40,8 +77,8 @@ pub(crate) fn for_chunk_pairs<T: Send, U: Send>(
 ) {
     match threads {
         Threads::All if items.len() > CHUNK => {
-            let chunks = items.par_chunks_mut(CHUNK).zip(others.par_chunks_mut(CHUNK));
-            chunks.enumerate().for_each(|(i, pair)| work(i * CHUNK, pair));
+            let chunks = items.chunks_mut(CHUNK).zip(others.chunks_mut(CHUNK));
+            map_each(chunks, |i, pair| work(i * CHUNK, pair));
         }
         _ => work(0, (items, others)),
     }
@@ -73,8 +110,8 @@ pub(crate) fn map_grains<R: Send>(
 ) -> Vec<R> {
     match threads {
         Threads::All if len > grain => {
-            let range = |i: usize| i * grain..((i + 1) * grain).min(len);
-            (0..len.div_ceil(grain)).into_par_iter().with_max_len(1).map(|i| work(range(i))).collect()
+            let ranges = (0..len).step_by(grain).map(|start| start..(start + grain).min(len));
+            map_each(ranges, |_, range| work(range))
         }
         _ => vec![work(0..len)],
     }
@@ -88,7 +125,7 @@ pub(crate) fn map_mut<T: Send, R: Send>(
     work: impl Fn(usize, &mut T) -> R + Sync,
 ) -> Vec<R> {
     match threads {
-        Threads::All => items.par_iter_mut().enumerate().with_max_len(1).map(|(i, item)| work(i, item)).collect(),
+        Threads::All => map_each(items.iter_mut(), work),
         Threads::One => items.iter_mut().enumerate().map(|(i, item)| work(i, item)).collect(),
     }
 }
@@ -115,10 +152,17 @@ pub(crate) fn both<S: Send, R: Send>(
     one: impl FnOnce() -> S + Send,
     other: impl FnOnce() -> R + Send,
 ) -> (S, R) {
-    match threads {
-        Threads::All => rayon::join(one, other),
-        Threads::One => (one(), other()),
+    if threads == Threads::One {
+        return (one(), other());
     }
+    let ((mut one, mut other), (mut first, mut second)) = ((Some(one), Some(other)), (None, None));
+    join(&mut || first = one.take().map(|work| work()), &mut || second = other.take().map(|work| work()));
+    first.zip(second).expect("both were called")
+}
+
+/// Calls both functions, at the same time.
+fn join(one: &mut (dyn FnMut() + Send), other: &mut (dyn FnMut() + Send)) {
+    rayon::join(one, other);
 }
 
 /// Runs `own` in the calling thread and the `others` in threads of the pool, at the same time as
