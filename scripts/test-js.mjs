@@ -55,6 +55,8 @@ tests.on('test:complete', ({ name, file, details: { passed, duration_ms } }) => 
   if (name !== file) return;
   const [seconds, sinceStart] = [duration_ms / 1000, performance.now() / 1000].map(Math.round);
   const verdict = passed ? 'passed' : 'failed';
-  console.error(`${relative(root, file)} has ${verdict} in ${seconds} s, ${sinceStart} s after the start`);
+  console.error(
+    `${relative(root, file)} has ${verdict} in ${seconds} s, ${sinceStart} s after the start`,
+  );
 });
 tests.compose(spec).pipe(process.stdout);
