@@ -1,6 +1,6 @@
 //! The arrays of meshes.
 
-use crate::device::{Device, failed};
+use crate::{device::Device, error::failed};
 use cudarc::driver::{CudaSlice, DevicePtr, sys::CUstream};
 use gdel::{Error, wgpu};
 use std::{fmt, ptr, sync::Arc};

@@ -1,11 +1,14 @@
 //! One GPU as CUDA and Vulkan know it.
 
-use crate::staging::Staging;
+use crate::{error::failed, staging::Staging};
 use ash::{khr, vk};
-use cudarc::driver::{CudaContext, DriverError, sys::is_culib_present};
+use cudarc::driver::{
+    CudaContext, DriverError,
+    sys::{CUstream, is_culib_present},
+};
 use gdel::{Error, internals::gpu::Gpu, wgpu};
 use pollster::block_on;
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, PoisonError};
 use wgpu::hal::api::Vulkan;
 
 /// A GPU that is open in both interfaces.
@@ -50,6 +53,22 @@ impl Device {
         Ok(Device { context, gpu, staging })
     }
 
+    /// Copies the first bytes of a buffer to an address in CUDA memory, as work of a stream. Waits until they are there.
+    ///
+    /// # Errors
+    ///
+    /// Returns [`Error::Gpu`].
+    ///
+    /// # Safety
+    ///
+    /// So many bytes have to be there, and whoever uses them otherwise must have told this stream.
+    pub(crate) unsafe fn copy(&self, from: &wgpu::Buffer, bytes: u64, to: u64, stream: CUstream) -> Result<(), Error> {
+        let staging = self.staging.lock().unwrap_or_else(PoisonError::into_inner);
+        self.context.bind_to_thread().map_err(failed)?;
+        // SAFETY: the caller promises it, and nobody else uses the memory as long as it is locked.
+        unsafe { staging.copy(&self.gpu, from, bytes, to, stream) }
+    }
+
     /// Returns the number of the GPU among those of CUDA.
     pub(crate) fn ordinal(&self) -> usize {
         self.context.ordinal()
@@ -75,15 +94,6 @@ fn uuid(adapter: &wgpu::Adapter) -> Option<[u8; vk::UUID_SIZE]> {
     // SAFETY: the handle is one of this instance, whose version wgpu has made sure to be 1.1 or later.
     unsafe { instance.get_physical_device_properties2(adapter.raw_physical_device(), &mut properties) };
     Some(id.device_uuid)
-}
-
-/// Returns the error for what CUDA reports.
-pub(crate) fn failed(error: DriverError) -> Error {
-    use cudarc::driver::sys::CUresult::CUDA_ERROR_OUT_OF_MEMORY;
-    match error {
-        DriverError(CUDA_ERROR_OUT_OF_MEMORY) => Error::OutOfDeviceMemory { label: "CUDA memory" },
-        error => Error::Gpu { reason: format!("CUDA: {error}") },
-    }
 }
 
 /// Returns on which of CUDA's GPUs an address is.

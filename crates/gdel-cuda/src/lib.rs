@@ -24,6 +24,7 @@
 
 mod array;
 mod device;
+mod error;
 mod mesh;
 #[cfg(feature = "python")]
 mod python;

@@ -1,6 +1,6 @@
 //! Memory that both interfaces see, through which arrays go from one to the other.
 
-use crate::device::{Device, failed};
+use crate::error::failed;
 use ash::{khr, vk};
 use cudarc::driver::{
     CudaContext, DevicePtr, MappedBuffer,
@@ -11,7 +11,7 @@ use gdel::{Error, internals::gpu::Gpu, wgpu};
 use std::{
     fs::File,
     os::fd::{FromRawFd, OwnedFd},
-    sync::{Arc, PoisonError},
+    sync::Arc,
 };
 use wgpu::hal::{api::Vulkan, vulkan};
 
@@ -45,9 +45,7 @@ impl Staging {
         let address = mapped.device_ptr(&context.default_stream()).0;
         Ok(Staging { _mapped: mapped, address, buffer })
     }
-}
 
-impl Device {
     /// Copies the first bytes of a buffer to an address in CUDA memory, as work of a stream. Waits until they are there.
     ///
     /// # Errors
@@ -56,22 +54,28 @@ impl Device {
     ///
     /// # Safety
     ///
-    /// So many bytes have to be there, and whoever uses them otherwise must have told this stream.
-    pub(crate) unsafe fn copy(&self, from: &wgpu::Buffer, bytes: u64, to: u64, stream: CUstream) -> Result<(), Error> {
-        let staging = self.staging.lock().unwrap_or_else(PoisonError::into_inner);
-        self.context.bind_to_thread().map_err(failed)?;
+    /// So many bytes have to be there, and whoever uses them otherwise must have told this stream. CUDA's context has to
+    /// be current, and nobody else may use this memory meanwhile.
+    pub(crate) unsafe fn copy(
+        &self,
+        gpu: &Gpu,
+        from: &wgpu::Buffer,
+        bytes: u64,
+        to: u64,
+        stream: CUstream,
+    ) -> Result<(), Error> {
         for start in (0..bytes).step_by(SIZE as usize) {
             let size = SIZE.min(bytes - start);
-            let copied = pollster::block_on(self.gpu.with_error_scope("arrays for CUDA", || {
-                let mut encoder = self.gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-                encoder.copy_buffer_to_buffer(from, start, &staging.buffer, 0, size);
-                Ok(self.gpu.queue().submit([encoder.finish()]))
+            let copied = pollster::block_on(gpu.with_error_scope("arrays for CUDA", || {
+                let mut encoder = gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+                encoder.copy_buffer_to_buffer(from, start, &self.buffer, 0, size);
+                Ok(gpu.queue().submit([encoder.finish()]))
             }))?;
             let wait = wgpu::PollType::Wait { submission_index: Some(copied), timeout: None };
-            self.gpu.device().poll(wait).map_err(|error| Error::Gpu { reason: error.to_string() })?;
+            gpu.device().poll(wait).map_err(|error| Error::Gpu { reason: error.to_string() })?;
             // SAFETY: Vulkan has written so many bytes, and writes others only when these have been read.
             unsafe {
-                memcpy_dtod_async(to + start, staging.address, size as usize, stream).map_err(failed)?;
+                memcpy_dtod_async(to + start, self.address, size as usize, stream).map_err(failed)?;
                 synchronize(stream).map_err(failed)?;
             }
         }

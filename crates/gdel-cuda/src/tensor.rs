@@ -1,6 +1,6 @@
 //! Points of the caller.
 
-use crate::device::{Device, failed};
+use crate::{device::Device, error::failed};
 use cudarc::driver::result::memcpy_dtoh_sync;
 use gdel::{Error, Points};
 use std::{any::Any, fmt};
