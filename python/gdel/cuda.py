@@ -38,32 +38,29 @@ class _State(Generic[A]):
 
     @cached_property
     def indices(self) -> A:
-        return self._array(self.mesh.simplices())
+        return self.convert(self.mesh.simplices())
 
     @cached_property
     def links(self) -> A:
-        return self._array(self.mesh.neighbors())
+        return self.convert(self.mesh.neighbors())
 
     @cached_property
     def hull(self) -> A:
-        return self._array(self.mesh.hull())
+        return self.convert(self.mesh.hull())
 
     @cached_property
     def vertex_to_simplex(self) -> A:
-        return self._array(self.mesh.vertex_simplex())
+        return self.convert(self.mesh.vertex_simplex())
 
     @cached_property
     def adjacency(self) -> tuple[A, A]:
         offsets, neighbors = self.mesh.adjacency()
-        return self._array(offsets), self._array(neighbors)
+        return self.convert(offsets), self.convert(neighbors)
 
     @cached_property
     def survivors(self) -> A | None:
         survivors = self.mesh.survivors()
-        return None if survivors is None else self._array(survivors)
-
-    def _array(self, array: _gdel.MeshArray) -> A:
-        return self.convert(array)
+        return None if survivors is None else self.convert(survivors)
 
 
 class Triangulation(Generic[A]):

@@ -5,20 +5,21 @@
 // −1 where there is none.
 @group(0) @binding(3) var<storage, read_write> survivors: array<i32>;
 
-// Returns whether simplex t has a vertex.
-fn has(t: u32, v: u32) -> bool {
+// Returns whether simplex u of the other mesh has a vertex.
+fn has(u: u32, v: u32) -> bool {
     for (var k = 0u; k < CORNERS; k++) {
-        if corners[CORNERS * t + k] == v {
+        if before[CORNERS * u + k] == v {
             return true;
         }
     }
     return false;
 }
 
-// Returns whether simplex t has all vertices of simplex u of the other mesh.
+// Returns whether simplex u of the other mesh has all vertices of simplex t. These differ from each other, so u has no
+// others; the buffer of an empty mesh has zeros in place of a simplex.
 fn is_same(t: u32, u: u32) -> bool {
     for (var k = 0u; k < CORNERS; k++) {
-        if !has(t, before[CORNERS * u + k]) {
+        if !has(u, corners[CORNERS * t + k]) {
             return false;
         }
     }

@@ -315,6 +315,22 @@ fn survivors_are_the_simplices_with_the_same_vertices() {
     assert!(survived > 1000 && gone > 1000, "{survived} survived, {gone} are gone");
 }
 
+#[test]
+fn nothing_survives_of_a_mesh_without_simplices() {
+    let gpu = block_on(Gpu::open(&AdapterChoice::Default)).expect("lavapipe or a GPU");
+    let device = on(&gpu).device().expect("opens");
+    let around = [[0, 0, 0], [1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]];
+    let [flat, full] =
+        [0.0, 1.0].map(|height| around.map(|[x, y, z]| [f64::from(x), f64::from(y), height * f64::from(z)]));
+    let [before, after] = [flat, full].map(|points| device.delaunay3d(&points).unwrap());
+    assert_eq!((before.simplex_count(), after.simplex_count()), (0, 8));
+    assert_eq!(read(&gpu, &after.survivors(before.simplices()).unwrap()), [-1; 8]);
+    let [line, full] = [0.0, 1.0].map(|height| around.map(|[x, y, _]| [f64::from(x), height * f64::from(y)]));
+    let [before, after] = [line, full].map(|points| device.delaunay2d(&points).unwrap());
+    assert_eq!((before.simplex_count(), after.simplex_count()), (0, 4));
+    assert_eq!(read(&gpu, &after.survivors(before.simplices()).unwrap()), [-1; 4]);
+}
+
 /// Compares nearest vertices, edges and neighbours with those of the host. Returns how many queries
 /// the host has answered.
 macro_rules! check_nearest {
