@@ -159,7 +159,7 @@ export async function expectAccessiblePanels(page, pictures) {
 /** Opens the page on a phone, on which it must not be wider than the screen. */
 export async function openOnPhone(browser, url, options = {}) {
   const viewport = { width: 390, height: 844 };
-  const phone = { viewport, isMobile: true, hasTouch: true, deviceScaleFactor: 2 };
+  const phone = { viewport, isMobile: true, hasTouch: true, deviceScaleFactor: 1 };
   const page = await open(browser, url, { ...phone, ...options });
   const width = await page.evaluate(() => document.documentElement.scrollWidth);
   assert.ok(width <= page.viewportSize().width, `${width} pixels wide`);
