@@ -42,7 +42,7 @@ count_instructions() {
     echo "guard: the figures are those of Linux on x86-64; leave out 'instructions' here" >&2
     exit 1
   }
-  GUNGRAUN_RUNNER=$(PATH=$PWD/.cache/tools/bin:$PATH command -v gungraun-runner) \
+  GUNGRAUN_RUNNER=$(PATH=${XDG_CACHE_HOME:-$HOME/.cache}/gdel-tools/bin:$PATH command -v gungraun-runner) \
     cargo bench --quiet --locked --package gdel-guard --bench instructions -- \
     --parallel=2 --output-format=json >"$counts/instructions.jsonl"
 }

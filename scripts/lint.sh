@@ -3,7 +3,7 @@
 # well: licences, sources and known vulnerabilities of the dependencies, and semantic versioning.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-PATH=$PWD/.cache/tools/bin:$PWD/.cache/tools/python/bin:$PATH
+PATH=${XDG_CACHE_HOME:-$HOME/.cache}/gdel-tools/bin:$PWD/.cache/tools/python/bin:$PATH
 
 step() {
   echo "== $* ($SECONDS s)"
@@ -22,7 +22,6 @@ for features in "" threads glam,mint,nalgebra,ndarray,serde gpu; do
   step cargo check --locked --package gdel --lib --no-default-features --features "$features"
 done
 wasm=(--target wasm32-unknown-unknown)
-step cargo check --locked --package gdel --package gdel-io --lib --no-default-features "${wasm[@]}"
 step cargo clippy --locked --lib --package gdel --features gdel/gpu \
   --package gdel-web --features gdel-web/d2,gdel-web/d3,gdel-web/edit,gdel-web/tools,gdel-web/derived,gdel-web/surface,gdel-web/transport "${wasm[@]}" -- -D warnings
 # The fuzz targets; what they are linked to needs a compiler of C++ and is not needed for a check.

@@ -83,17 +83,19 @@ install_rust_parts() {
 # The version of a crate in the lock file.
 locked() { sed -n "/^name = \"$1\"$/{n;s/^version = \"\(.*\)\"$/\1/p}" Cargo.lock; }
 
-# Installs a tool from crates.io into .cache/tools, unless it is there or on the PATH in this
-# version. The tools do not have to be fast, but to compile fast: with the optimisation that their
-# work needs.
+# Where tools from crates.io are: all checkouts on this machine share them, since they take minutes to compile.
+crates_tools=${XDG_CACHE_HOME:-$HOME/.cache}/gdel-tools
+
+# Installs a tool from crates.io, unless it is there or on the PATH in this version. The tools do not have
+# to be fast, but to compile fast: with the optimisation that their work needs.
 install_tool() {
   local optimisation=$1 command=$2 crate=$3 version=$4
   shift 4
-  ! grep -qs "^\"$crate $version " .cache/tools/.crates.toml || return 0
+  ! grep -qs "^\"$crate $version " "$crates_tools/.crates.toml" || return 0
   [[ $("$command" --version 2>/dev/null) != "$command $version"* ]] || return 0
   say "compiling $crate $version: a few minutes"
   CARGO_PROFILE_RELEASE_OPT_LEVEL=$optimisation CARGO_PROFILE_RELEASE_LTO=off CARGO_PROFILE_RELEASE_CODEGEN_UNITS=16 \
-    cargo install --quiet --root .cache/tools --version "$version" "$@" "$crate"
+    cargo install --quiet --root "$crates_tools" --version "$version" "$@" "$crate"
 }
 
 # The glue that wasm-bindgen writes has to be of the version that the crate was compiled with.

@@ -263,6 +263,20 @@ pub enum Error {
         /// How that was noticed.
         reason: &'static str,
     },
+    /// A tile was created with what does not belong to it.
+    #[error("tile {tile} cannot be made: {reason}")]
+    BadTile {
+        /// The number of the tile.
+        tile: u32,
+        /// What does not belong to it.
+        reason: &'static str,
+    },
+    /// A message is not what another tile has sent.
+    #[error("this is not a message between tiles: {reason}")]
+    BadMessage {
+        /// How that was noticed.
+        reason: &'static str,
+    },
     /// The progress callback requested to stop.
     #[error("the triangulation was cancelled")]
     Cancelled,
@@ -299,6 +313,7 @@ impl Error {
             BadAlpha | BadOption { .. } | BrokenMesh { .. } | BadWeight { .. } | BadRadius { .. } => false,
             WeightedMesh | ConstrainedMesh | BadMass { .. } | MassSum { .. } | TransportStopped { .. } => false,
             BadConstraint { .. } | CrossingConstraints { .. } | OpenBoundary { .. } => false,
+            BadTile { .. } | BadMessage { .. } => false,
         }
     }
 }

@@ -35,6 +35,7 @@
 //! | Which triangles has a polygon with holes, or a terrain with breaklines? | [`Triangulator::constrained2d`] |
 //! | How does such a mesh get triangles for simulations, without small angles? | [`Constrained2::refine`] |
 //! | Which few points of a scan make a terrain that is near to all of them? | [`Triangulator::tin`] |
+//! | How are more points triangulated than fit into one memory, or by machines that share none? | [`tiles`] |
 //! | The same for places on a globe, by longitude and latitude | [`Sphere`] |
 //! | Which edges, facets and neighbours are there? | [`Mesh3::edges`], [`facets`](Mesh3::facets), [`vertex_neighbors`](Mesh3::vertex_neighbors) |
 //! | How large and how well shaped is each simplex? | [`Mesh3::volumes`], [`circumcenters`](Mesh3::circumcenters), [`radius_ratios`](Mesh3::radius_ratios) |
@@ -74,6 +75,7 @@ mod gpu;
 // What is derived from a mesh, and what else is made of one.
 mod constrained;
 mod derived;
+pub mod tiles;
 
 // What a run says about itself, and what is checked afterwards.
 mod backend;

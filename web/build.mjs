@@ -52,7 +52,7 @@ const say = (text) => console.log(`build: ${text}`);
 // wasm-bindgen is there; wasm-opt is that of the npm package binaryen, since Debian's is too old
 // for what rustc emits.
 const PATH = [
-  join(root, '.cache/tools/bin'),
+  join(process.env.XDG_CACHE_HOME ?? join(homedir(), '.cache'), 'gdel-tools/bin'),
   join(root, 'node_modules/.bin'),
   process.env.PATH,
 ].join(delimiter);

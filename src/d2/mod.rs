@@ -8,7 +8,7 @@ pub mod gpu;
 pub(crate) mod insert;
 pub mod lawson;
 mod mesh;
-mod triangulation;
+pub(crate) mod triangulation;
 pub mod verify;
 
 pub use mesh::Mesh2;

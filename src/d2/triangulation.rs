@@ -32,7 +32,7 @@ pub(super) fn vertices_of_mesh(triangle: [u32; 3], winding: Winding) -> [u32; 3]
 }
 
 /// Returns the vertices of a counter-clockwise triangle as a mesh of this orientation has them.
-pub(super) fn vertices_to_mesh(triangle: [u32; 3], winding: Winding) -> [u32; 3] {
+pub(crate) fn vertices_to_mesh(triangle: [u32; 3], winding: Winding) -> [u32; 3] {
     vertices_of_mesh(triangle, winding)
 }
 
@@ -50,7 +50,7 @@ pub(super) fn edges_of_mesh(halfedges: [u32; 3], winding: Winding) -> [u32; 3] {
 
 /// Returns the half-edges of a triangle, given what is across its edges: the inverse of
 /// [`edges_of_mesh`].
-pub(super) fn edges_to_mesh(edges: [u32; 3], winding: Winding) -> [u32; 3] {
+pub(crate) fn edges_to_mesh(edges: [u32; 3], winding: Winding) -> [u32; 3] {
     let is_clockwise = winding == Winding::Clockwise;
     edge_of_halfedge(is_clockwise).map(|k| match edges[k] {
         NONE => NONE,
@@ -141,6 +141,11 @@ impl Triangulation2 {
     /// Returns the edge that half-edge `halfedge` of a mesh of this orientation has become.
     pub(crate) fn edge_of_halfedge(halfedge: u32, winding: Winding) -> u32 {
         4 * (halfedge / 3) + edge_of_halfedge(winding == Winding::Clockwise)[halfedge as usize % 3] as u32
+    }
+
+    /// Returns the half-edge of a mesh of this orientation that edge `edge` becomes.
+    pub(crate) fn halfedge_of_edge(edge: u32, winding: Winding) -> u32 {
+        edge / 4 * 3 + halfedge_of_edge(winding == Winding::Clockwise)[edge as usize % 4] as u32
     }
 
     /// Returns the vertices of each triangle.

@@ -25,6 +25,7 @@ mod predicates;
 mod refining;
 mod regular;
 mod threads;
+mod tiles;
 mod tin;
 mod trackers;
 mod typescript;

@@ -1,6 +1,7 @@
 /** The modules of Node that are used where they exist. */
 interface BuiltInModules {
   'node:fs/promises': typeof import('node:fs/promises');
+  'node:os': typeof import('node:os');
   'node:url': typeof import('node:url');
   'node:worker_threads': typeof import('node:worker_threads');
   'node:zlib': typeof import('node:zlib');

@@ -13,10 +13,11 @@ import { instantiate } from './instance.js';
 import { outputsFor, withEmpty } from './outputs.js';
 import type { Tasks } from './protocol.js';
 import { refineArgs } from './refining.js';
+import { inWorkers, joinTiles } from './tiles.js';
 import { tinArgs } from './tin-args.js';
 import type { ConstraintOptions } from './types.js';
 
-export { extrasOf, refineArgs, tinArgs };
+export { extrasOf, inWorkers, refineArgs, tinArgs };
 
 /** Returns a result whose constraints have methods, which cannot be sent from a worker. */
 export const withConstraints = (result: Tasks['constrained']['result']) => ({
@@ -52,9 +53,40 @@ export function createBlocking(module: WebAssembly.Module) {
 
 export function openCore(module: WebAssembly.Module): Core {
   const { glue, memory } = instantiate(makeGlue, module);
+  let tile: InstanceType<Glue['WasmTile']> | undefined;
+  let report: ReportProgress = () => false;
   return coreOf({
     memory,
     handlers: {
+      async splitPoints({ dimension, points, tiles }) {
+        return { points, ...glue.splitPoints(dimension, points, tiles) };
+      },
+      async stepTile({ begin, messages }, control) {
+        report = reporting(control);
+        if (begin) {
+          const { dimension, plan, number, points, indices } = begin;
+          const ofStep: ReportProgress = (...progress) => report(...progress);
+          tile = new glue.WasmTile(dimension, plan, number, points, indices, ofStep);
+        }
+        return { messages: tile!.step(messages) };
+      },
+      async finishTile() {
+        const { stats, ...finished } = tile!.finish();
+        return { ...finished, stats: statsOfCpu(stats, performance.now(), memory) };
+      },
+      async takeTile({ base }) {
+        const taken = tile!.take(base);
+        tile = undefined;
+        return taken;
+      },
+      async joinTiles(args) {
+        const own = tile!;
+        tile = undefined;
+        return joinTiles(args, {
+          copyTo: (simplices, neighbors) => own.copyTo(simplices, neighbors),
+          link: glue.joinTiles,
+        });
+      },
       async change({ dimension, points, before, mesh: given, removed, outputs }, control) {
         const started = performance.now();
         control.onBlocking();

@@ -102,6 +102,7 @@ export const statsOfCpu = <S extends object>(
   memory: WebAssembly.Memory,
 ) => ({
   ...stats,
+  threads: 1,
   adapter: null,
   milliseconds: performance.now() - started,
   wasmBytes: memory.buffer.byteLength,

@@ -88,6 +88,7 @@ export class Engine<Glue extends AnyGlue = AnyGlue> {
     this.speed.keep();
     return {
       ...stats,
+      threads: 1,
       fallback: stats.fallback ?? info?.fallback ?? null,
       adapter: stats.backend === 'gpu' ? (info?.adapter ?? null) : null,
       milliseconds: performance.now() - started,

@@ -43,6 +43,8 @@ export class Host {
   #noWorker: string | null = null;
   #last: Promise<unknown> = Promise.resolve();
   #disposed = false;
+  /** The hosts of workers that take parts of a run. */
+  readonly #helpers = new Set<Host>();
 
   constructor({ gpu, device, worker, selfTest }: HostOptions = {}) {
     this.#gpu = device ? gpuOf(device) : gpu;
@@ -50,6 +52,30 @@ export class Host {
     this.#selfTest = selfTest;
     if (gpu) this.#noWorker = 'a GPU object cannot be sent to another thread';
     else if (worker === false) this.#noWorker = 'the option worker is false';
+  }
+
+  /** Whether tasks run in workers, as far as that is known. */
+  get hasWorkers(): boolean {
+    return this.#noWorker === null;
+  }
+
+  /** Does what takes several workers, after all earlier tasks. The workers end with it. */
+  together<R>(workers: number, work: (hosts: readonly Host[]) => Promise<R>): Promise<R> {
+    const hosts = Array.from({ length: workers }, () => new Host());
+    const done = this.#last.then(async () => {
+      this.#throwIfDisposed();
+      for (const host of hosts) this.#helpers.add(host);
+      try {
+        return await work(hosts);
+      } finally {
+        for (const host of hosts) {
+          host.dispose();
+          this.#helpers.delete(host);
+        }
+      }
+    });
+    this.#last = done.catch(() => {});
+    return done;
   }
 
   /** Runs a task after all earlier ones. */
@@ -168,6 +194,7 @@ export class Host {
     }
     this.#connections.clear();
     this.#spares.clear();
+    for (const helper of this.#helpers) helper.dispose();
     for (const driver of this.#drivers.values()) driver.dispose();
   }
 

@@ -37,3 +37,9 @@ export function withEmpty<M extends Partial<Tasks['delaunay3d']['result']>>(mesh
   mesh.duplicateOf ??= new Int32Array(0);
   return mesh;
 }
+
+/** Returns the arrays of a 3D mesh that were requested, and empty ones for the others. */
+export function onlyOutputs<M extends object>(arrays: M, outputs: readonly Output[]): M {
+  const kept = Object.entries(arrays).filter(([name]) => outputs.includes(name as Output));
+  return withEmpty(Object.fromEntries(kept) as Partial<Tasks['delaunay3d']['result']>) as M;
+}

@@ -105,6 +105,15 @@ interface Kept {
   kept?: Indices;
 }
 
+/** The arrays of a tile, with the numbers that simplices have in the mesh. */
+export interface TileArrays {
+  simplices: Indices;
+  neighbors: SignedIndices;
+  /** Five words per facet that may lead to another tile. */
+  borders: Indices;
+  hull: Indices;
+}
+
 /** The arguments and the result of each task. */
 export interface Tasks {
   open: { args: { backend: Backend }; result: CoreInfo };
@@ -124,9 +133,13 @@ export interface Tasks {
       newKey: number;
       /** Whether to return a simplex of each point. */
       vertexSimplex?: boolean;
+      /** Whether to do nothing if it would be done by the CPU, of which several workers are ready. */
+      leavesToWorkers?: boolean;
     };
     result: {
       points: Coordinates;
+      /** Whether nothing was done: then there is only `stats.fallback`. */
+      isLeft?: boolean;
       tetrahedra: Indices;
       neighbors: SignedIndices;
       hull: Indices;
@@ -154,9 +167,11 @@ export interface Tasks {
       newKey: number;
       vertexSimplex?: boolean;
       outputs?: readonly string[];
+      leavesToWorkers?: boolean;
     };
     result: {
       points: Coordinates;
+      isLeft?: boolean;
       triangles: Indices;
       halfedges: SignedIndices;
       hull: Indices;
@@ -209,6 +224,50 @@ export interface Tasks {
       before: Pick<ConstrainedArrays, 'added' | 'moved' | 'zeroLength'>;
     };
     result: Tasks['constrained']['result'];
+  };
+  /** Splits points into tiles, one for each worker. */
+  splitPoints: {
+    args: { dimension: 2 | 3; points: Coordinates; tiles: number };
+    result: {
+      points: Coordinates;
+      /** The affine dimension of the points. */
+      spanned: number;
+      plan: Bytes;
+      parts: { points: Doubles; indices: Indices }[];
+    };
+  };
+  /** Begins a tile, or goes on with the one that was begun. */
+  stepTile: {
+    args: {
+      begin?: { dimension: 2 | 3; plan: Bytes; number: number; points: Doubles; indices: Indices };
+      /** Numbers of senders, each with its message after it. */
+      messages: (number | Bytes)[];
+    };
+    /** Numbers of receivers, each with the message for it after it. */
+    result: { messages: (number | Bytes)[] };
+  };
+  finishTile: {
+    args: object;
+    result: { simplices: number; duplicates: Indices; stats: CoreStats };
+  };
+  /** Returns the arrays of the tile, before which there are `base` simplices in the mesh. */
+  takeTile: { args: { base: number }; result: TileArrays };
+  /** Joins the tile to the others, which follow it. */
+  joinTiles: {
+    args: {
+      dimension: 2 | 3;
+      points: number;
+      /** How many simplices the tile has. */
+      simplices: number;
+      others: TileArrays[];
+      duplicates: Indices[];
+    };
+    result: {
+      simplices: Indices;
+      neighbors: SignedIndices;
+      hull: Indices;
+      duplicateOf: SignedIndices;
+    };
   };
   tin: {
     args: { points: Coordinates; segments: Segments; options: object };

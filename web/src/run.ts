@@ -1,6 +1,7 @@
 // Runs on points: triangulations from scratch, and updates of meshes whose points have moved.
 
 import { codeEdit, module2d, module3d, moduleEdit } from '#assets';
+import { builtin } from './builtin.js';
 import type { Device } from './device.js';
 import { GdelError, thrown } from './errors.js';
 import type { Extras } from './extras.js';
@@ -11,6 +12,7 @@ import {
   checkArrays,
   checkBoolean,
   checkFunction,
+  checkInteger,
   checkOneOf,
   hasConstraints,
   objectOf,
@@ -21,7 +23,7 @@ import { coordinatesInSlices, factorsOf, scaled } from './points.js';
 import type { Done, Edit, MovedMesh, Task, Tasks } from './protocol.js';
 import { loadCode, type ModuleAsset } from './runtime.js';
 import type { UpdateStats } from './stats.js';
-import { throwIfAborted } from './stop.js';
+import { Stop, throwIfAborted } from './stop.js';
 import type {
   AccessorOptions,
   Backend,
@@ -141,13 +143,20 @@ export function updating<T extends Task>(
   outputs: readonly Output[] = [],
   factors?: readonly number[],
 ): Update<T> {
-  const { backend, resident } = optionsOf(made);
+  const { backend, resident, threads } = optionsOf(made);
   let key = 0;
   const update: Update<T> = async (points, given, moved, stats, edit) => {
     const { weights, radii } = optionsOf(given) as RunOptions;
     if (weights ?? radii)
       throw new GdelError('BAD_INPUT', 'changes of a mesh take no weights: triangulate anew');
-    const all = { ...optionsOf(given), backend, resident, reuse: undefined, rescale: factors };
+    const all = {
+      ...optionsOf(given),
+      backend,
+      resident,
+      threads,
+      reuse: undefined,
+      rescale: factors,
+    };
     if (resident) {
       const job = await prepare(maker, kind, points, all);
       const done = await start(maker, kind, job, { outputs, moved: (moved as Held).resident.key });
@@ -189,6 +198,22 @@ interface Job extends Extras {
   options: TaskOptions;
   /** By which the points were multiplied. */
   factors: readonly number[] | undefined;
+  /** The number of workers for a run by the CPU. */
+  threads: number;
+}
+
+/** With fewer points for each worker, they take as long to start as they save. */
+const POINTS_PER_WORKER = 50_000;
+const MAX_WORKERS = 64;
+
+/** Returns the number of workers for a run on so many points. */
+function workersFor({ hasWorkers }: Host, points: number, wanted: number | undefined): number {
+  if (wanted !== undefined) checkInteger('the option threads', wanted, 1, MAX_WORKERS);
+  if (!hasWorkers) return 1;
+  if (wanted !== undefined) return wanted;
+  const processors =
+    globalThis.navigator?.hardwareConcurrency ?? builtin('node:os')?.availableParallelism() ?? 1;
+  return Math.max(1, Math.min(processors, MAX_WORKERS, Math.floor(points / POINTS_PER_WORKER)));
 }
 
 /** The last key of a mesh: meshes of instances that were replaced have keys of their own, too. */
@@ -197,17 +222,55 @@ let lastKey = 0;
 /** Returns a key that no mesh has. */
 export const nextKey = (): number => ++lastKey;
 
-const start = <T extends Task>(
+async function start<T extends Task>(
+  maker: Maker,
+  kind: Kind<T>,
+  job: Job,
+  more: { outputs?: readonly Output[]; moved?: number; key?: number },
+): Promise<Done<T>> {
+  const { args, sending, options, threads } = job;
+  const isAlone =
+    threads === 1 || args.resident || args.backend === 'gpu' || more.outputs?.includes('trace');
+  const run = (leavesToWorkers: boolean) => {
+    const all = { ...args, ...more, leavesToWorkers } as Tasks[T]['args'];
+    return maker.host.run(kind.asset, kind.task, all, sending, options);
+  };
+  if (isAlone) return run(false);
+  if (args.backend === 'auto') {
+    const done = await run(true);
+    if (!done.result.isLeft) return done;
+    args.points = done.result.points;
+    sending.transfer = [args.points.buffer, ...args.spare!.filter(({ byteLength }) => byteLength)];
+    const joined = await together(maker, kind, job, more.outputs ?? []);
+    const { fallback } = done.result.stats;
+    if (joined) joined.result.stats.fallback = fallback;
+    return joined ?? run(false);
+  }
+  return (await together(maker, kind, job, more.outputs ?? [])) ?? run(false);
+}
+
+/** Triangulates by several workers, or returns null and leaves the points to one if that is as fast. */
+async function together<T extends Task>(
   { host }: Maker,
-  { task, asset }: Kind<T>,
-  { args, sending, options }: Job,
-  more: object,
-): Promise<Done<T>> =>
-  host.run(asset, task, { ...args, ...more } as Tasks[T]['args'], sending, options);
+  kind: Kind<T>,
+  job: Job,
+  outputs: readonly Output[],
+): Promise<Done<T> | null> {
+  const { inWorkers } = await loadCode(codeEdit);
+  const stop = new Stop(job.options);
+  try {
+    stop.throwIfStopped();
+    const work = (hosts: readonly Host[]) =>
+      inWorkers(hosts, moduleEdit, { ...kind, ...job, outputs }, stop);
+    return (await host.together(job.threads, work)) as Done<T> | null;
+  } finally {
+    stop.release();
+  }
+}
 
 /** Returns the checked arguments of a run. What is small is copied before this returns. */
 async function prepare(
-  { backend: defaultBackend, device }: Maker,
+  { host, backend: defaultBackend, device }: Maker,
   { dimension }: Kind<Task>,
   points: unknown,
   options: AnyOptions | undefined,
@@ -248,6 +311,7 @@ async function prepare(
   const coordinates = scaled(extras.points, factors);
   const spare = resident ? [] : memoryOf(arrays);
   const sending: Sending = { transfer: [coordinates.buffer, ...spare], isGiven: transfer };
+  const threads = workersFor(host, coordinates.length / dimension, checked.threads);
   const args = { points: coordinates, backend, resident, spare, newKey: nextKey() };
-  return { ...extras, args, sending, options: task, factors };
+  return { ...extras, args, sending, options: task, factors, threads };
 }

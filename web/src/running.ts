@@ -40,6 +40,8 @@ export class Runner {
     const { points, backend, resident = false, spare, key } = args;
     const info = await choice.decide(backend, points, speed);
     const isOnGpu = info?.backend === 'gpu';
+    if (!isOnGpu && args.leavesToWorkers)
+      return { points, isLeft: true, stats: { fallback: info?.fallback ?? null } };
     if (!isOnGpu) control.onBlocking();
     const ready = new Memory(spare);
     if (isOnGpu && !resident) arrayMemory.serve(ready, of.large, points.length);

@@ -54,6 +54,11 @@ export interface RunOptions extends TaskOptions {
    * The backend; the result does not depend on it. Default: that of the triangulator, or `'auto'`.
    */
   backend?: Backend | undefined;
+  /**
+   * The number of workers with which the CPU triangulates, each of them a part of the points, from 1 to 64. The result
+   * does not depend on it. Default: as many as the machine has processors, but one for each 50,000 points.
+   */
+  threads?: number | undefined;
   /** The arrays to return besides `tetrahedra`; others are empty. Default: all but `'trace'`. */
   outputs?: readonly Output[] | undefined;
   /**
@@ -213,6 +218,8 @@ export interface TriangulatorInfo extends Place {
 
 /** Statistics of the run that computed a mesh. */
 export interface Stats extends RunStats, Place {
+  /** The number of workers that have triangulated: more than 1 if the CPU has, by several. */
+  threads: number;
   /** The adapter, if the GPU computed the mesh. */
   adapter: AdapterInfo | null;
   /** Milliseconds of the whole run, including copies to and from WebAssembly. */

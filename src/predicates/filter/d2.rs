@@ -180,7 +180,7 @@ impl<const W: bool> PredicateContext<'_, 2, W> {
             return sign;
         }
         self.count(|c| &mut c.symbolic);
-        symbolic::break_tie(vertices.map(|v| self.input_index(v)), |k| {
+        symbolic::break_tie(vertices.map(|v| self.rank(v)), |k| {
             let [a, b, c] = symbolic::without(vertices, k);
             self.orient2d(a, b, c)
         })

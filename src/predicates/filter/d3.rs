@@ -358,7 +358,7 @@ impl<const W: bool> PredicateContext<'_, 3, W> {
             return sign;
         }
         self.count(|c| &mut c.symbolic);
-        symbolic::break_tie(vertices.map(|v| self.input_index(v)), |k| {
+        symbolic::break_tie(vertices.map(|v| self.rank(v)), |k| {
             let [a, b, c, d] = symbolic::without(vertices, k);
             self.orient3d(a, b, c, d)
         })

@@ -66,6 +66,8 @@ pub struct PredicateContext<'a, const D: usize, const W: bool = false> {
     lattice: Lattice<D>,
     /// The input index of each vertex; empty if the vertices are the input points in their order.
     indices: Arc<Vec<u32>>,
+    /// The index by which ties are broken, of each input point; empty if that is its index in the input.
+    ranks: &'a [u32],
     /// Input coordinates times a power of two that brings the range of every axis below 2³¹; for a
     /// narrow lattice, the lattice coordinates. Empty if they are computed each time.
     coordinates: Arc<Vec<[f64; D]>>,
@@ -179,6 +181,11 @@ impl<'a, const D: usize> PredicateContext<'a, D> {
         context
     }
 
+    /// Breaks the ties of input point *i* by the index `ranks[i]`.
+    pub(crate) fn ranked(self, ranks: &'a [u32]) -> Self {
+        PredicateContext { ranks, ..self }
+    }
+
     /// Creates a context whose vertices are the points of the input in their order. The points must
     /// be finite, and `lattice` fitted to them.
     ///
@@ -236,6 +243,7 @@ impl<'a, const D: usize, const W: bool> PredicateContext<'a, D, W> {
             input: self.input,
             lattice: self.lattice.clone(),
             indices: Arc::clone(&self.indices),
+            ranks: self.ranks,
             coordinates: Arc::clone(&self.coordinates),
             weights: self.weights.clone(),
             scaling: self.scaling.clone(),
@@ -259,6 +267,7 @@ impl<'a, const D: usize, const W: bool> PredicateContext<'a, D, W> {
             input,
             lattice: lattice.clone(),
             indices: Arc::default(),
+            ranks: &[],
             coordinates: Arc::default(),
             weights: Weights { input: weights, scaled: Arc::default() },
             scaling,
@@ -306,6 +315,13 @@ impl<'a, const D: usize, const W: bool> PredicateContext<'a, D, W> {
     #[inline]
     pub fn input_index(&self, v: u32) -> u32 {
         self.indices.get(v as usize).copied().unwrap_or(v)
+    }
+
+    /// Returns the index by which the ties of vertex `v` are broken.
+    #[inline]
+    fn rank(&self, v: u32) -> u32 {
+        let index = self.input_index(v);
+        self.ranks.get(index as usize).copied().unwrap_or(index)
     }
 
     /// Returns the input index of every vertex.

@@ -30,6 +30,8 @@ mod run;
 mod surface;
 #[cfg(any(feature = "derived", feature = "surface"))]
 mod task;
+#[cfg(feature = "edit")]
+mod tiles;
 #[cfg(feature = "tools")]
 mod tools;
 #[cfg(feature = "transport")]

@@ -1,0 +1,241 @@
+//! The simplices of one tile, and the mesh of all.
+
+use super::{border::Vertices, dim::Tiled, in_pieces};
+use crate::{
+    cpu::{Incremental, MeshOf},
+    dimension::Dimension,
+    error::Error,
+    geometry::{self, Euclidean, Geometry},
+    index::NONE,
+    mesh::MeshInfo,
+    options::{Options, Winding},
+};
+use rustc_hash::FxHashMap;
+
+/// The simplices of which the vertex with the lowest index is one of a [`Tile`](super::Tile)'s own.
+///
+/// Vertices are indices of the whole input. A neighbour that is a simplex of another part is found by the facet
+/// between them: both parts have it in [`borders`](Part::borders), except where it is on the hull.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Part<const N: usize> {
+    /// The vertices of the simplices, as in [`Mesh3::tetrahedra`](crate::Mesh3::tetrahedra) or
+    /// [`Mesh2::triangles`](crate::Mesh2::triangles).
+    pub simplices: Vec<[u32; N]>,
+    /// The neighbours in the part, as in [`Mesh3::neighbors`](crate::Mesh3::neighbors) or
+    /// [`Mesh2::halfedges`](crate::Mesh2::halfedges); [`NONE`] outside the hull and in other parts.
+    pub neighbors: Vec<[u32; N]>,
+    /// The facets that may lead to other parts.
+    pub borders: Vec<BorderFacet>,
+    /// The facets of the hull whose vertex with the lowest index is one of the tile's own, with [`NONE`] after them.
+    pub hull: Vec<[u32; N]>,
+    /// The tile's own points that duplicate others, each with that one.
+    pub duplicates: Vec<[u32; 2]>,
+    /// The affine dimension of the whole input.
+    pub dimension: u8,
+}
+
+/// A facet of a [`Part`] that may lead to another one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct BorderFacet {
+    /// The vertices in ascending order; in 2D, [`NONE`] is the last one.
+    pub vertices: [u32; 3],
+    /// The place of the neighbour among all entries of [`Part::neighbors`].
+    pub place: u32,
+    /// What stands for this facet's simplex as a neighbour.
+    pub entry: u32,
+}
+
+impl<const N: usize> Part<N> {
+    /// Creates a part without simplices.
+    pub(super) fn new(dimension: u8) -> Self {
+        Part {
+            simplices: Vec::new(),
+            neighbors: Vec::new(),
+            borders: Vec::new(),
+            hull: Vec::new(),
+            duplicates: Vec::new(),
+            dimension,
+        }
+    }
+}
+
+/// Marks ghosts among the numbers of simplices.
+const GHOST: u32 = NONE - 1;
+
+/// Adds the finite simplices of a triangulation of which the vertex with the lowest index is one of the tile's own,
+/// and the facets of the hull likewise. Vertex *v* becomes `names[v]`. The arrays are those of the triangulation.
+pub(super) fn fill<const D: usize, const N: usize>(
+    part: &mut Part<N>,
+    triangulation: <Dimension<D> as Incremental<D>>::Triangulation,
+    names: &[u32],
+    of: Vertices<'_>,
+    winding: Winding,
+) where
+    Dimension<D>: Tiled<D, N>,
+    Euclidean: Geometry<D, N>,
+{
+    let infinite = of.infinite();
+    let name = |v: u32| names[v as usize];
+    let is_ours = |simplex: &[u32; N]| {
+        let finite = simplex.iter().copied().filter(|&v| v != infinite);
+        !simplex.iter().any(|&v| of.is_foreign(v)) || finite.min_by_key(|&v| name(v)).is_some_and(|v| v < of.own)
+    };
+    let slots = Dimension::<D>::slots(&triangulation);
+    let mut number = vec![NONE; slots as usize];
+    let mut count = 0;
+    in_pieces(slots, &mut |piece| {
+        for t in piece {
+            let Some(simplex) = Dimension::<D>::simplex(&triangulation, t) else { continue };
+            match Dimension::<D>::ghost_facet(simplex, infinite) {
+                Some(facet) => {
+                    number[t as usize] = GHOST;
+                    if is_ours(&simplex) {
+                        let mut hull = [NONE; N];
+                        hull.iter_mut().zip(facet).for_each(|(to, v)| *to = name(v));
+                        part.hull.push(hull);
+                    }
+                }
+                None if is_ours(&simplex) => {
+                    number[t as usize] = count;
+                    count += 1;
+                }
+                None => {}
+            }
+        }
+    });
+    let [mut simplices, mut neighbors] = Dimension::<D>::into_arrays(triangulation);
+    // None moves to the right, so that each is still where it was when it is read.
+    in_pieces(slots, &mut |piece| {
+        for t in piece.map(|t| t as usize) {
+            let this = number[t];
+            if this >= GHOST {
+                continue;
+            }
+            let (simplex, mut across) = (simplices[t], neighbors[t]);
+            for (k, f) in across.iter_mut().enumerate() {
+                let other = number[(*f >> 2) as usize];
+                if other < GHOST {
+                    *f = 4 * other + (*f & 3);
+                    continue;
+                }
+                *f = NONE;
+                let facet: [u32; D] = geometry::facet(&simplex, k);
+                // What is beyond a facet with one of the tile's own vertices is known.
+                if other == GHOST && facet.iter().any(|&v| v < of.own) {
+                    continue;
+                }
+                let mut vertices = [NONE; 3];
+                vertices.iter_mut().zip(facet).for_each(|(to, v)| *to = name(v));
+                vertices.sort_unstable();
+                let [place, entry] = Dimension::<D>::place(this, k, winding);
+                part.borders.push(BorderFacet { vertices, place, entry });
+            }
+            simplices[this as usize] = Dimension::<D>::to_mesh(simplex.map(name), winding);
+            neighbors[this as usize] = Dimension::<D>::entries(across, winding);
+        }
+    });
+    simplices.truncate(count as usize);
+    neighbors.truncate(count as usize);
+    (part.simplices, part.neighbors) = (simplices, neighbors);
+}
+
+/// Joins the parts of all tiles to the mesh of all `points` points.
+///
+/// # Errors
+///
+/// Returns [`Error::BrokenMesh`] if these are not all parts of one triangulation, and [`Error::TooManySimplices`].
+///
+/// # Examples
+///
+/// See [`Tile`](super::Tile).
+pub fn join<const D: usize, const N: usize>(parts: Vec<Part<N>>, points: usize) -> Result<MeshOf<D>, Error>
+where
+    Dimension<D>: Tiled<D, N>,
+{
+    join_with::<D, N>(parts, points, &Options::default())
+}
+
+/// Joins parts with options.
+pub(super) fn join_with<const D: usize, const N: usize>(
+    parts: Vec<Part<N>>,
+    points: usize,
+    options: &Options,
+) -> Result<MeshOf<D>, Error>
+where
+    Dimension<D>: Tiled<D, N>,
+{
+    let broken = |reason| Err(Error::BrokenMesh { reason });
+    let count: usize = parts.iter().map(|part| part.simplices.len()).sum();
+    let limit = (u32::MAX / 4) as usize;
+    if count > limit {
+        return Err(Error::TooManySimplices { limit });
+    }
+    let dimension = parts.first().map_or(0, |part| part.dimension);
+    let (mut simplices, mut neighbors) = (Vec::with_capacity(count), Vec::with_capacity(count));
+    let (mut hull, mut duplicate_of) = (Vec::new(), vec![NONE; points]);
+    let mut all_borders = Vec::new();
+    for part in parts {
+        let Part { simplices: own, neighbors: near, borders, hull: facets, duplicates, .. } = part;
+        if near.len() != own.len() || own.as_flattened().iter().any(|&v| v as usize >= points) {
+            return broken("a part has vertices that are no points");
+        }
+        let base = simplices.len() as u32;
+        let by = base * Dimension::<D>::STRIDE;
+        simplices.extend(own);
+        neighbors.extend(near.into_iter().map(|near| near.map(|e| if e == NONE { NONE } else { e + by })));
+        let moved = |facet: BorderFacet| {
+            let place = facet.place.checked_add(base * N as u32)?;
+            Some(BorderFacet { place, entry: facet.entry.checked_add(by)?, ..facet })
+        };
+        for facet in borders {
+            let Some(facet) = moved(facet) else { return broken("a part has too few facets") };
+            all_borders.push(facet);
+        }
+        for facet in facets {
+            let mut vertices = [NONE; D];
+            vertices.iter_mut().zip(facet).for_each(|(to, v)| *to = v);
+            hull.push(vertices);
+        }
+        for [i, first] in duplicates {
+            let Some(entry) = duplicate_of.get_mut(i as usize) else { return broken("a duplicate is no point") };
+            *entry = first;
+        }
+    }
+    let entries: &mut [u32] = neighbors.as_flattened_mut();
+    for [place, entry] in links(all_borders, &hull)? {
+        let Some(to) = entries.get_mut(place as usize) else { return broken("a part has too few facets") };
+        *to = entry;
+    }
+    let mut mesh = Dimension::<D>::assemble(simplices, neighbors, hull, options.winding);
+    mesh.set_input(duplicate_of, dimension);
+    Ok(mesh)
+}
+
+/// Returns places and the entries that belong there, of the neighbours in other parts, from the border facets of all parts,
+/// whose places and entries are those of the whole mesh, and from the facets of the hull.
+///
+/// # Errors
+///
+/// Returns [`Error::BrokenMesh`] if a facet leads nowhere.
+pub fn links<const D: usize>(
+    borders: impl IntoIterator<Item = BorderFacet>,
+    hull: &[[u32; D]],
+) -> Result<Vec<[u32; 2]>, Error> {
+    let mut open: FxHashMap<[u32; 3], [u32; 2]> = FxHashMap::default();
+    let mut links = Vec::new();
+    for BorderFacet { vertices, place, entry } in borders {
+        match open.remove(&vertices) {
+            None => _ = open.insert(vertices, [place, entry]),
+            Some([other, beyond]) => links.extend([[place, beyond], [other, entry]]),
+        }
+    }
+    // What leads to no other part is on the hull.
+    for facet in hull {
+        let mut vertices = [NONE; 3];
+        vertices.iter_mut().zip(facet).for_each(|(to, &v)| *to = v);
+        vertices.sort_unstable();
+        open.remove(&vertices);
+    }
+    if open.is_empty() { Ok(links) } else { Err(Error::BrokenMesh { reason: "a part of it is missing" }) }
+}

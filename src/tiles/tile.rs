@@ -1,0 +1,374 @@
+//! One of the tiles that points are split into.
+
+use super::{
+    border::{Border, Vertices},
+    dim::Tiled,
+    message::{Content, Known, Message},
+    part::{self, Part},
+    plan::Plan,
+};
+use crate::{
+    backend::Backend,
+    cpu::{Incremental, insert_points},
+    dimension::Dimension,
+    error::Error,
+    geometry::{Euclidean, Geometry},
+    index::NONE,
+    input::{
+        lattice::Lattice,
+        order::{Distinct, Order, insertion_order},
+        points::Points,
+    },
+    options::Options,
+    parallel::{self, Threads},
+    predicates::filter::PredicateContext,
+    stats::{Phase, Stats},
+};
+use rustc_hash::{FxHashMap, FxHashSet};
+use std::sync::Arc;
+
+/// One of the tiles that points are split into, which triangulates its own points and those of others that it gets to
+/// know.
+///
+/// Tiles take [steps](Tile::step) together: what each sends in one step, the others receive in the next one. When none
+/// has sent anything, all simplices at a tile's own points are those of the whole triangulation.
+///
+/// # Examples
+///
+/// ```
+/// use gdel::tiles::{Plan, Survey, Tile, join};
+///
+/// let points: Vec<[f64; 2]> = (0..100u32).map(|i| [f64::from(i * i % 101), f64::from(i)]).collect();
+/// let plan = Plan::new(Survey::<2>::new(&points, 0, 10)?, 3);
+/// let mut tiles = Vec::new();
+/// for (number, (own, indices)) in (0..).zip(plan.split(&points, 0)) {
+///     tiles.push(Tile::<2, 3>::new(plan.clone(), number, own, indices)?);
+/// }
+/// let mut received = vec![Vec::new(); 3];
+/// loop {
+///     let mut sent = vec![Vec::new(); 3];
+///     for (from, tile) in tiles.iter_mut().enumerate() {
+///         for (to, message) in tile.step(std::mem::take(&mut received[from]))? {
+///             sent[to as usize].push((from as u32, message));
+///         }
+///     }
+///     if sent.iter().all(Vec::is_empty) {
+///         break;
+///     }
+///     received = sent;
+/// }
+/// let parts = tiles.into_iter().map(Tile::finish).collect();
+/// let mesh = join::<2, 3>(parts, points.len())?;
+/// assert!(gdel::verify2d(&points, &mesh)?.passed());
+/// # Ok::<(), gdel::Error>(())
+/// ```
+#[derive(Debug)]
+pub struct Tile<const D: usize, const N: usize>
+where
+    Dimension<D>: Tiled<D, N>,
+{
+    plan: Arc<Plan<D>>,
+    number: u32,
+    options: Options,
+    /// The steps so far.
+    steps: u32,
+    /// The points that the tile knows, which are the vertices: first its own, in the order of their indices, then the
+    /// common ones of other tiles, then others.
+    points: Vec<[f64; D]>,
+    /// The index of each in the whole input.
+    indices: Vec<u32>,
+    /// The number of the tile's own points.
+    own: u32,
+    /// The number of common points of other tiles.
+    common: u32,
+    /// The tile that each point of other tiles belongs to.
+    owners: Vec<u32>,
+    /// The indices of the points of other tiles.
+    known: FxHashSet<u32>,
+    /// For each of its own points the one that it duplicates, or [`NONE`].
+    duplicate_of: Vec<u32>,
+    triangulation: Option<<Dimension<D> as Incremental<D>>::Triangulation>,
+    /// How the tile was computed.
+    stats: Stats,
+    /// For each tile, the box of its own points.
+    bounds: Vec<Option<[[f64; D]; 2]>>,
+    /// For each tile, the vertices that it knows, without common ones of other tiles.
+    sent: Vec<FxHashSet<u32>>,
+}
+
+impl<const D: usize, const N: usize> Tile<D, N>
+where
+    Dimension<D>: Tiled<D, N>,
+    Euclidean: Geometry<D, N>,
+{
+    /// Creates the tile with this number of a plan, from its own points and their indices in the whole input, which
+    /// have to ascend.
+    ///
+    /// # Errors
+    ///
+    /// Returns [`Error::ValueCount`] unless there is one index per point, [`Error::BadTile`] if the plan has no such
+    /// tile, or a point that belongs to another one, or if the indices do not ascend, and [`Error::NotFinite`].
+    pub fn new(
+        plan: impl Into<Arc<Plan<D>>>,
+        number: u32,
+        points: Vec<[f64; D]>,
+        indices: Vec<u32>,
+    ) -> Result<Self, Error> {
+        Self::with_options(plan.into(), number, points, indices, Options::default())
+    }
+
+    /// Creates a tile with options.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Tile::new`].
+    #[doc(hidden)]
+    pub fn with_options(
+        plan: Arc<Plan<D>>,
+        number: u32,
+        points: Vec<[f64; D]>,
+        indices: Vec<u32>,
+        options: Options,
+    ) -> Result<Self, Error> {
+        let bad = |reason| Err(Error::BadTile { tile: number, reason });
+        if points.len() != indices.len() {
+            return Err(Error::ValueCount { values: indices.len(), points: points.len() });
+        }
+        Points::F64(&points).finite_bounds(Threads::One)?;
+        if number >= plan.tiles() {
+            return bad("there is none with this number");
+        }
+        if !indices.is_sorted_by(|a, b| a < b) {
+            return bad("the indices of its points do not ascend");
+        }
+        if points.iter().any(|&p| plan.tile_of(p) != number) {
+            return bad("one of its points belongs to another one");
+        }
+        Ok(Tile {
+            sent: vec![FxHashSet::default(); plan.tiles() as usize],
+            bounds: vec![None; plan.tiles() as usize],
+            plan,
+            number,
+            options,
+            steps: 0,
+            own: points.len() as u32,
+            common: 0,
+            points,
+            indices,
+            owners: Vec::new(),
+            known: FxHashSet::default(),
+            duplicate_of: Vec::new(),
+            triangulation: None,
+            stats: Stats::new(Backend::Cpu),
+        })
+    }
+
+    /// Takes a step: looks at what other tiles have sent in the last one, each message with the number of its sender.
+    /// Returns messages, each with the number of the tile that it is for.
+    ///
+    /// # Errors
+    ///
+    /// Returns [`Error::BadMessage`] if a message is not one that another tile has sent in the last step,
+    /// [`Error::Cancelled`], [`Error::TooManyPoints`], [`Error::TooManySimplices`] and [`Error::OutOfMemory`]. After
+    /// an error the tile cannot go on.
+    pub fn step(&mut self, received: Vec<(u32, Message<D>)>) -> Result<Vec<(u32, Message<D>)>, Error> {
+        if received.iter().any(|&(from, _)| from >= self.plan.tiles() || from == self.number) {
+            return Err(Error::BadMessage { reason: "its sender is not another tile" });
+        }
+        let options = self.options.clone();
+        self.steps += 1;
+        parallel::with_threads(options.threads, |threads| match self.steps {
+            1 if received.is_empty() => Ok(self.hello()),
+            1 => Err(UNEXPECTED),
+            2 => {
+                self.begin(threads, received)?;
+                Ok(self.outgoing(0, true))
+            }
+            _ => {
+                let first = self.points.len();
+                self.add(threads, received)?;
+                Ok(if first == self.points.len() { Vec::new() } else { self.outgoing(first as u32, false) })
+            }
+        })
+    }
+
+    /// Returns the simplices of the whole triangulation of which the vertex with the lowest index is one of the tile's
+    /// own.
+    pub fn finish(mut self) -> Part<N> {
+        let duplicates = self.indices.iter().copied().zip(self.duplicate_of.iter().copied());
+        let duplicates = duplicates.filter(|&(_, first)| first != NONE).map(Into::into).collect();
+        let mut part = Part { duplicates, ..Part::new(self.plan.dimension()) };
+        if let Some(triangulation) = self.triangulation.take() {
+            part::fill::<D, N>(&mut part, triangulation, &self.indices, self.vertices(), self.options.winding);
+        }
+        part
+    }
+
+    /// Returns how the tile was computed so far.
+    pub fn stats(&self) -> &Stats {
+        &self.stats
+    }
+
+    /// Returns whose the vertices are.
+    fn vertices(&self) -> Vertices<'_> {
+        Vertices { number: self.number, own: self.own, common: self.common, owners: &self.owners }
+    }
+
+    /// Tells the other tiles where the tile's own points are, and which of the common points duplicate others of them.
+    fn hello(&mut self) -> Vec<(u32, Message<D>)> {
+        let key = |p: &[f64; D]| p.map(|x| (x + 0.0).to_bits());
+        let own = self.plan.common.iter().filter(|p| self.plan.tile_of(p.at) == self.number);
+        let mut first_at: FxHashMap<[u64; D], u32> = own.clone().map(|p| (key(&p.at), p.index)).collect();
+        for (p, &index) in self.points.iter().zip(&self.indices) {
+            if let Some(first) = first_at.get_mut(&key(p)) {
+                *first = index.min(*first);
+            }
+        }
+        let first_of = own.map(|p| [p.index, first_at[&key(&p.at)]]);
+        let duplicates = first_of.filter(|[index, first]| first < index).collect();
+        let bounds = Points::F64(&self.points).bounds();
+        self.bounds[self.number as usize] = bounds;
+        let others = (0..self.plan.tiles()).filter(|&to| to != self.number);
+        let hello = Message(Content::Hello { bounds, duplicates });
+        others.map(|to| (to, hello.clone())).collect()
+    }
+
+    /// Triangulates the tile's own points and the common ones.
+    fn begin(&mut self, threads: Threads, received: Vec<(u32, Message<D>)>) -> Result<(), Error> {
+        let mut first_of = FxHashMap::default();
+        let mut heard = FxHashSet::default();
+        for (from, message) in received {
+            let Content::Hello { bounds, duplicates } = message.0 else { return Err(UNEXPECTED) };
+            self.bounds[from as usize] = bounds;
+            heard.insert(from);
+            first_of.extend(duplicates.into_iter().map(|[i, first]| (i, first)));
+        }
+        if heard.len() + 1 != self.plan.tiles() as usize {
+            return Err(Error::BadMessage { reason: "not all tiles have sent one" });
+        }
+        if self.own == 0 {
+            return Ok(());
+        }
+        let plan = Arc::clone(&self.plan);
+        for p in &plan.common {
+            let owner = plan.tile_of(p.at);
+            let index = first_of.get(&p.index).copied().unwrap_or(p.index);
+            if owner != self.number {
+                if self.known.insert(index) {
+                    self.learn(Known { index, owner, at: p.at });
+                }
+            } else if let Ok(v) = self.indices[..self.own as usize].binary_search(&index) {
+                self.sent.iter_mut().for_each(|sent| _ = sent.insert(v as u32));
+            }
+        }
+        self.common = self.owners.len() as u32;
+        let points = Points::F64(&self.points);
+        let lattice = Lattice::fit_by(threads, points)?;
+        let Distinct { mut order, rounds, duplicate_of } =
+            insertion_order(threads, points, &lattice, Dimension::<D>::CURVE, Order::Brio);
+        let index = |i: u32| if i == NONE { NONE } else { self.indices[i as usize] };
+        self.duplicate_of = duplicate_of[..self.own as usize].iter().map(|&i| index(i)).collect();
+        if usize::from(plan.dimension()) < D {
+            return Ok(());
+        }
+        Dimension::<D>::spanning_first(points, &mut order);
+        let context = PredicateContext::new_by(threads, points, &lattice, order).ranked(&self.indices);
+        let mut triangulation = Dimension::<D>::triangulate(threads, &context, &rounds, &self.options)?;
+        self.stats.exact = context.exact_counts();
+        Dimension::<D>::rename(&mut triangulation, &context.into_input_indices(), points.len() as u32);
+        self.triangulation = Some(triangulation);
+        Ok(())
+    }
+
+    /// Adds a point of another tile.
+    fn learn(&mut self, p: Known<D>) {
+        self.points.push(p.at);
+        self.indices.push(p.index);
+        self.owners.push(p.owner);
+    }
+
+    /// Inserts what other tiles have sent.
+    fn add(&mut self, threads: Threads, received: Vec<(u32, Message<D>)>) -> Result<(), Error> {
+        let before = self.points.len();
+        let mut received_from = Vec::new();
+        for (from, message) in received {
+            let Content::Points(points) = message.0 else { return Err(UNEXPECTED) };
+            for p in points {
+                if p.owner == self.number || p.owner != self.plan.tile_of(p.at) {
+                    return Err(Error::BadMessage { reason: "it has a point of another tile than it says" });
+                }
+                received_from.push((from, p.index));
+                if self.known.insert(p.index) {
+                    self.learn(p);
+                }
+            }
+        }
+        let limit = <Dimension<D> as Incremental<D>>::MAX_POINTS;
+        if self.points.len() > limit {
+            return Err(Error::TooManyPoints { points: self.points.len(), limit });
+        }
+        let Some(triangulation) = &mut self.triangulation else { return Ok(()) };
+        if self.points.len() == before {
+            return Ok(());
+        }
+        let points = Points::F64(&self.points);
+        let lattice = Lattice::fit_by(threads, points)?;
+        let new = points.range(before..points.len());
+        let Distinct { mut order, .. } = insertion_order(threads, new, &lattice, Dimension::<D>::CURVE, Order::Brio);
+        if order.len() < new.len() {
+            return Err(Error::BadMessage { reason: "points with different indices are equal" });
+        }
+        order.iter_mut().for_each(|i| *i += before as u32);
+        Dimension::<D>::move_infinite(triangulation, points.len() as u32);
+        let context = if new.len() > points.len() / FEW {
+            PredicateContext::new_by(threads, points, &lattice, (0..points.len() as u32).collect())
+        } else {
+            PredicateContext::of_input(points, &lattice)
+        };
+        let context = context.ranked(&self.indices);
+        let is_used = |&t: &u32| Dimension::<D>::simplex(triangulation, t).is_some();
+        let start = (0..Dimension::<D>::slots(triangulation)).find(is_used).unwrap_or(0);
+        let options = &self.options;
+        insert_points(triangulation, &context, order, start, |_| options.report(Phase::Insert, 1.0))?;
+        self.stats.exact = self.stats.exact + context.exact_counts();
+        // Who has sent a point knows it.
+        let names = (before as u32..).zip(&self.indices[before..]);
+        let vertex_of: FxHashMap<u32, u32> = names.map(|(v, &index)| (index, v)).collect();
+        for (from, index) in received_from {
+            if let Some(&v) = vertex_of.get(&index) {
+                self.sent[from as usize].insert(v);
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns what other tiles have to know of the simplices that have a vertex from `first` on; at the beginning also
+    /// what they will probably need.
+    fn outgoing(&mut self, first: u32, is_beginning: bool) -> Vec<(u32, Message<D>)> {
+        let mut sent = std::mem::take(&mut self.sent);
+        let Some(triangulation) = &self.triangulation else { return Vec::new() };
+        let border = Border::new(triangulation, self.vertices(), first);
+        let mut outgoing = vec![Vec::new(); sent.len()];
+        // The tile that each vertex was last sent to: most simplices around a vertex have the same neighbours.
+        let mut last = vec![NONE; self.points.len()];
+        let mut send = |to: u32, v: u32| {
+            if std::mem::replace(&mut last[v as usize], to) != to && sent[to as usize].insert(v) {
+                let i = v as usize;
+                let owner = i.checked_sub(self.own as usize).map_or(self.number, |i| self.owners[i]);
+                outgoing[to as usize].push(Known { index: self.indices[i], owner, at: self.points[i] });
+            }
+        };
+        if is_beginning {
+            border.push(|v| self.points[v as usize], &self.bounds, &mut send);
+        }
+        border.exchange(&mut send);
+        self.sent = sent;
+        let messages = (0..).zip(outgoing).filter(|(_, points)| !points.is_empty());
+        messages.map(|(to, points)| (to, Message(Content::Points(points)))).collect()
+    }
+}
+
+/// The coordinates of all vertices are prepared only where at least one of so many is inserted.
+const FEW: usize = 100;
+
+const UNEXPECTED: Error = Error::BadMessage { reason: "it is of another step" };
