@@ -11,12 +11,17 @@ async function triangulated(url) {
   const mesh = await gdel.delaunay3d(points);
   await gdel.load3d();
   const { thread, whyThread, whyInlined } = mesh.stats;
-  const same = gdel.delaunay3dSync(points).tetrahedra.join() === mesh.tetrahedra.join();
+  const several = await gdel.delaunay3d(points, { backend: 'cpu', threads: 2 });
+  // Where there are no workers, the calling thread is alone.
+  const workers = several.stats.threads === (thread === 'worker' ? 2 : 1);
+  const others = [several, gdel.delaunay3dSync(points)];
+  const same = others.every(({ tetrahedra }) => tetrahedra.join() === mesh.tetrahedra.join());
   const { passed } = await gdel.verify(points, mesh);
-  return { tetrahedra: mesh.tetrahedra.length, same, passed, thread, whyThread, whyInlined };
+  const { length } = mesh.tetrahedra;
+  return { tetrahedra: length, same, workers, passed, thread, whyThread, whyInlined };
 }
 
-const RIGHT = { tetrahedra: 4, same: true, passed: true };
+const RIGHT = { tetrahedra: 4, same: true, workers: true, passed: true };
 
 /**
  * The tests.

@@ -66,6 +66,9 @@ export function openCore(module: WebAssembly.Module): Core {
         if (begin) {
           const { dimension, plan, number, points, indices } = begin;
           const ofStep: ReportProgress = (...progress) => report(...progress);
+          // One that was given up.
+          tile?.free();
+          tile = undefined;
           tile = new glue.WasmTile(dimension, plan, number, points, indices, ofStep);
         }
         return { messages: tile!.step(messages) };

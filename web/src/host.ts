@@ -16,6 +16,9 @@ import type { Progress, TaskOptions } from './types.js';
 /** A run that can be aborted and takes longer than this has a second worker started beside it. */
 const WARM_MILLISECONDS = 100;
 
+/** Workers that have taken part of a run end after this time without another one. */
+const REST_MILLISECONDS = 10_000;
+
 export interface HostOptions {
   gpu?: object | undefined;
   device?: Device | undefined;
@@ -44,7 +47,8 @@ export class Host {
   #last: Promise<unknown> = Promise.resolve();
   #disposed = false;
   /** The hosts of workers that take parts of a run. */
-  readonly #helpers = new Set<Host>();
+  readonly #helpers: Host[] = [];
+  #rest: ReturnType<typeof setTimeout> | undefined;
 
   constructor({ gpu, device, worker, selfTest }: HostOptions = {}) {
     this.#gpu = device ? gpuOf(device) : gpu;
@@ -59,23 +63,32 @@ export class Host {
     return this.#noWorker === null;
   }
 
-  /** Does what takes several workers, after all earlier tasks. The workers end with it. */
+  /**
+   * Does what takes several workers, after all earlier tasks. The workers wait for more of it for a while, since the
+   * system takes long to provide memory, and end if it fails.
+   */
   together<R>(workers: number, work: (hosts: readonly Host[]) => Promise<R>): Promise<R> {
-    const hosts = Array.from({ length: workers }, () => new Host());
     const done = this.#last.then(async () => {
       this.#throwIfDisposed();
-      for (const host of hosts) this.#helpers.add(host);
+      clearTimeout(this.#rest);
+      while (this.#helpers.length < workers) this.#helpers.push(new Host());
       try {
-        return await work(hosts);
+        return await work(this.#helpers.slice(0, workers));
+      } catch (error) {
+        this.#endHelpers();
+        throw error;
       } finally {
-        for (const host of hosts) {
-          host.dispose();
-          this.#helpers.delete(host);
-        }
+        this.#rest = setTimeout(() => this.#endHelpers(), REST_MILLISECONDS);
+        // Node does not wait for it.
+        (this.#rest as { unref?(): void }).unref?.();
       }
     });
     this.#last = done.catch(() => {});
     return done;
+  }
+
+  #endHelpers(): void {
+    for (const helper of this.#helpers.splice(0)) helper.dispose();
   }
 
   /** Runs a task after all earlier ones. */
@@ -194,7 +207,7 @@ export class Host {
     }
     this.#connections.clear();
     this.#spares.clear();
-    for (const helper of this.#helpers) helper.dispose();
+    this.#endHelpers();
     for (const driver of this.#drivers.values()) driver.dispose();
   }
 

@@ -87,7 +87,13 @@ async function inTiles(
   { plan, parts, points }: Tasks['splitPoints']['result'],
   onProgress: (progress: Progress) => void,
 ): Promise<Joined | null> {
-  const started = performance.now();
+  const phases: CoreStats['phases'] = [];
+  let last = performance.now();
+  const lap = (name: string) => {
+    const now = performance.now();
+    phases.push({ name, milliseconds: now - last });
+    last = now;
+  };
   const done = parts.map(() => 0);
   const step = async (number: number, args: Tasks['stepTile']['args'], transfer: ArrayBuffer[]) => {
     const { result } = await hosts[number]!.run(
@@ -110,6 +116,7 @@ async function inTiles(
     return step(number, { begin, messages: [] }, [points.buffer, indices.buffer]);
   });
   let sent = await Promise.all(begun);
+  lap('start');
   for (let steps = 1; steps === 1 || sent.some(({ length }) => length > 0); steps++) {
     const { received, bytes } = delivered(sent);
     // A point takes eight bytes, and eight for each coordinate.
@@ -119,8 +126,9 @@ async function inTiles(
       step(number, { messages }, buffersIn(messages)),
     );
     sent = await Promise.all(taken);
+    if (steps === 1) lap('insert');
   }
-  const triangulated = performance.now();
+  lap('exchange');
   onProgress({ phase: 'finish', fraction: 0.8 });
 
   const tiles = await Promise.all(
@@ -148,10 +156,7 @@ async function inTiles(
     neighbors.buffer,
   ]);
   const { result: arrays } = await hosts[0]!.run(asset, 'joinTiles', all, { transfer }, {});
-  const phases = [
-    { name: 'insert', milliseconds: triangulated - started },
-    { name: 'finish', milliseconds: performance.now() - triangulated },
-  ];
+  lap('finish');
   const stats = { ...tiles[0]!.result.stats, threads: hosts.length, phases };
   for (const { result } of tiles.slice(1)) addTo(stats, result.stats);
   return { arrays, stats };
