@@ -22,6 +22,7 @@ from gdel._points import (
     as_points,
     as_progress,
     as_queries,
+    as_weights,
 )
 
 if TYPE_CHECKING:
@@ -121,7 +122,10 @@ class State:
     def equations(self) -> Floats:
         """The hyperplanes of the lifted simplices."""
         points = self.points.astype(np.float64, copy=False)
-        lifted = np.column_stack([points, (points**2).sum(axis=1)])[self.simplices]
+        heights = (points**2).sum(axis=1)
+        if len(self.mesh.weights):
+            heights -= self.mesh.weights
+        lifted = np.column_stack([points, heights])[self.simplices]
         edges = lifted[:, 1:] - lifted[:, :1]
         normals = np.ones((len(lifted), lifted.shape[2]))
         if len(lifted):
@@ -148,6 +152,12 @@ class Delaunay:
         and must not be changed afterwards; pass the changed points to `update`.
     furthest_site, incremental, qhull_options
         Accepted for SciPy's sake. There is no furthest-site diagram; points can always be added; nothing is joggled.
+    weights
+        One number per point: the triangulation is then the regular one, the dual of the power diagram, which `Voronoi`
+        makes of it. A point of weight *w* counts as a ball of radius √*w*; only differences count. Points can be
+        `hidden`. The CPU computes it.
+    radii
+        One radius per point instead of `weights`, which are the squares.
     backend
         ``"auto"`` takes the GPU where it is faster, ``"cpu"`` and ``"gpu"`` force one.
     threads
@@ -176,6 +186,8 @@ class Delaunay:
         incremental: bool = False,
         qhull_options: str | None = None,
         *,
+        weights: npt.ArrayLike | None = None,
+        radii: npt.ArrayLike | None = None,
         backend: Backend = "auto",
         threads: int | None = None,
         progress: Progress = None,
@@ -184,7 +196,7 @@ class Delaunay:
         if furthest_site:
             raise ValueError("there is no furthest-site triangulation: use scipy.spatial.Delaunay")
         array = as_points(points)
-        mesh = _gdel.triangulate(array, backend, threads, as_progress(progress))
+        mesh = _gdel.triangulate(array, as_weights(weights, radii), backend, threads, as_progress(progress))
         self._take(State(mesh, array), backend, threads)
 
     def _take(self, state: State, backend: Backend, threads: int | None) -> None:
@@ -334,6 +346,17 @@ class Delaunay:
         return self._state.mesh.duplicate_of
 
     @property
+    def hidden(self) -> Indices:
+        """The points that are no vertices because of their weights, in ascending order, without duplicates."""
+        return self._state.mesh.hidden
+
+    @property
+    def weights(self) -> Floats | None:
+        """The weights of the points; `None` for a Delaunay triangulation, which equal weights give as well."""
+        weights = self._state.mesh.weights
+        return weights if len(weights) else None
+
+    @property
     def edges(self) -> Indices:
         """The edges, each once."""
         return self._state.edges
@@ -392,11 +415,27 @@ class Delaunay:
         return found.reshape(*shape, k)
 
     def update(self, points: npt.ArrayLike, *, progress: Progress = None) -> None:
-        """Make this the triangulation of the same points after they have moved."""
+        """Make this the triangulation of the same points after they have moved. They cannot have weights."""
         array = as_points(points)
         with self._lock:
             mesh = self._state.mesh.update(array, self._backend, as_progress(progress))
             self._state = State(mesh, array)
+
+    def update_weights(
+        self,
+        weights: npt.ArrayLike | None = None,
+        *,
+        radii: npt.ArrayLike | None = None,
+        progress: Progress = None,
+    ) -> None:
+        """Make this the regular triangulation of the same points with other weights, or radii."""
+        numbers = as_weights(weights, radii)
+        if numbers is None:
+            raise TypeError("there are neither weights nor radii")
+        with self._lock:
+            state = self._state
+            mesh = state.mesh.update_weights(state.points, numbers, self._backend, as_progress(progress))
+            self._state = State(mesh, state.points)
 
     def insert(self, points: npt.ArrayLike, *, progress: Progress = None) -> npt.NDArray[np.intp]:
         """Insert points and return their indices."""
@@ -427,7 +466,10 @@ class Delaunay:
             self._state = State(mesh, state.points)
 
     def verify(self) -> VerifyReport:
-        """Prove that this is the Delaunay triangulation of its points, exactly, whoever has computed it."""
+        """Prove that this is the Delaunay triangulation of its points, exactly, whoever has computed it.
+
+        With weights, that it is the regular one, and that each hidden point is none of its vertices.
+        """
         return VerifyReport(**self._state.mesh.verify(self._state.points))
 
     # Bridges.

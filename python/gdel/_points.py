@@ -36,6 +36,26 @@ def as_floats(values: npt.ArrayLike, name: str) -> Points:
     return np.require(array, dtype, ["C", "A"])
 
 
+def as_weights(weights: npt.ArrayLike | None, radii: npt.ArrayLike | None) -> Floats | None:
+    """Return weights as an array of one axis, or those of radii, which are their squares."""
+    if weights is not None and radii is not None:
+        raise ValueError("weights and radii cannot both be given: weights are the squares of radii")
+    name, given = ("weights", weights) if radii is None else ("radii", radii)
+    if given is None:
+        return None
+    array = as_floats(given, name)
+    if array.ndim != 1:
+        raise ValueError(f"{name} must have one axis, not the shape {array.shape}")
+    numbers: Floats = array.astype(np.float64, copy=False)
+    if radii is None:
+        return numbers
+    bad = np.flatnonzero(~(numbers >= 0))
+    if len(bad):
+        raise ValueError(f"radius {bad[0]} is not a number from 0 on")
+    squares: Floats = numbers**2
+    return squares
+
+
 def as_points(values: npt.ArrayLike, name: str = "points") -> Points:
     """Return points as an array of 2 or 3 columns."""
     array = as_floats(values, name)

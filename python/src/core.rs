@@ -29,6 +29,9 @@ pub(crate) struct Arrays<const N: usize> {
     pub(crate) duplicate_of: Vec<u32>,
     /// In 2D.
     pub(crate) constraints: Vec<[u32; 2]>,
+    /// None for a Delaunay triangulation.
+    pub(crate) weights: Vec<f64>,
+    pub(crate) hidden: Vec<u32>,
     pub(crate) dimension: u8,
 }
 
@@ -40,6 +43,10 @@ pub(crate) trait Core<const D: usize, const N: usize>:
     type Located: Send + Sync;
 
     fn triangulate(triangulator: &Triangulator, points: Points<'_, D>) -> Result<Self, Error>;
+    /// Triangulates weighted points.
+    fn regular(triangulator: &Triangulator, points: Points<'_, D>, weights: &[f64]) -> Result<Self, Error>;
+    /// Returns the points that are no vertices because of their weights.
+    fn hidden(&self) -> &[u32];
     fn from_arrays(arrays: Arrays<N>) -> Self;
     /// Returns the neighbours, in 2D the half-edges.
     fn links(&self) -> &[[u32; N]];
@@ -114,11 +121,17 @@ self_cell!(
 
 /// Implements what both meshes do in the same way.
 macro_rules! common {
-    ($D:literal, $N:literal, $located:ident, $links:ident, $triangulate:ident, $measures:ident, $verify:ident) => {
+    ($D:literal, $N:literal, $located:ident, $links:ident, $triangulate:ident, $regular:ident, $measures:ident, $verify:ident) => {
         type Located = $located;
 
         fn triangulate(triangulator: &Triangulator, points: Points<'_, $D>) -> Result<Self, Error> {
             triangulator.$triangulate(points)
+        }
+        fn regular(triangulator: &Triangulator, points: Points<'_, $D>, weights: &[f64]) -> Result<Self, Error> {
+            triangulator.$regular(points, weights)
+        }
+        fn hidden(&self) -> &[u32] {
+            &self.hidden
         }
         fn links(&self) -> &[[u32; $N]] {
             &self.$links
@@ -147,13 +160,14 @@ macro_rules! common {
 }
 
 impl Core<3, 4> for Mesh3 {
-    common!(3, 4, Located3, neighbors, delaunay3d, volumes, verify3d);
+    common!(3, 4, Located3, neighbors, delaunay3d, regular3d, volumes, verify3d);
 
     fn from_arrays(arrays: Arrays<4>) -> Self {
         let mut mesh = Mesh3::default();
         (mesh.tetrahedra, mesh.neighbors) = (arrays.simplices, arrays.links);
         mesh.hull = arrays.hull.as_chunks().0.to_vec();
         (mesh.duplicate_of, mesh.dimension) = (arrays.duplicate_of, arrays.dimension);
+        (mesh.weights, mesh.hidden) = (arrays.weights, arrays.hidden);
         mesh
     }
     fn hull(&self) -> &[u32] {
@@ -168,12 +182,13 @@ impl Core<3, 4> for Mesh3 {
 }
 
 impl Core<2, 3> for Mesh2 {
-    common!(2, 3, Located2, halfedges, delaunay2d, areas, verify2d);
+    common!(2, 3, Located2, halfedges, delaunay2d, regular2d, areas, verify2d);
 
     fn from_arrays(arrays: Arrays<3>) -> Self {
         let mut mesh = Mesh2::default();
         (mesh.triangles, mesh.halfedges, mesh.hull) = (arrays.simplices, arrays.links, arrays.hull);
         (mesh.duplicate_of, mesh.dimension) = (arrays.duplicate_of, arrays.dimension);
+        (mesh.weights, mesh.hidden) = (arrays.weights, arrays.hidden);
         mesh.constraints = arrays.constraints;
         mesh
     }

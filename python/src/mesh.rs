@@ -53,39 +53,52 @@ impl Mesh {
     }
 }
 
-/// Triangulates points.
+/// Triangulates points, which may have weights.
 #[pyfunction]
-#[pyo3(signature = (points, backend, threads, progress))]
+#[pyo3(signature = (points, weights, backend, threads, progress))]
 pub(crate) fn triangulate(
     py: Python<'_>,
     points: &Bound<'_, PyAny>,
+    weights: Option<PyReadonlyArray1<'_, f64>>,
     backend: &str,
     threads: Option<usize>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Mesh> {
     let options = Options::new(backend, threads, progress)?;
     let input = Input::new(points)?;
+    let weights = weights.as_ref().map(|weights| weights.as_slice()).transpose()?;
     if input.dimension() == 2 {
-        let points = input.points()?;
-        let mesh = compute::triangulate(py, &options, points.len(), |by| Mesh2::triangulate(by, points))?;
-        Ok(Mesh::two(mesh, threads))
+        Ok(Mesh::two(triangulated(py, &input, weights, &options)?, threads))
     } else {
-        let points = input.points()?;
-        let mesh = compute::triangulate(py, &options, points.len(), |by| Mesh3::triangulate(by, points))?;
-        Ok(Mesh::three(mesh, threads))
+        Ok(Mesh::three(triangulated(py, &input, weights, &options)?, threads))
     }
+}
+
+fn triangulated<M: Core<D, N>, const D: usize, const N: usize>(
+    py: Python<'_>,
+    input: &Input<'_>,
+    weights: Option<&[f64]>,
+    options: &Options,
+) -> PyResult<M> {
+    let points = input.points::<D>()?;
+    compute::triangulate(py, options, points.len(), |by| match weights {
+        Some(weights) => M::regular(by, points, weights),
+        None => M::triangulate(by, points),
+    })
 }
 
 /// The arrays of a mesh and its dimension, as they are pickled.
 type State<'py> = (Vec<Bound<'py, PyAny>>, u8);
 
-/// What `state` has returned: simplices, links, the hull, duplicates and constraints.
+/// What `state` has returned: simplices, links, the hull, duplicates, constraints, hidden points and weights.
 type Stored<'py> = (
     PyReadonlyArray2<'py, i32>,
     PyReadonlyArray2<'py, i32>,
     PyReadonlyArray1<'py, i32>,
     PyReadonlyArray1<'py, i32>,
     PyReadonlyArray2<'py, i32>,
+    PyReadonlyArray1<'py, i32>,
+    PyReadonlyArray1<'py, f64>,
 );
 
 /// Returns the mesh of arrays that `state` has returned.
@@ -96,7 +109,8 @@ pub(crate) fn restore(arrays: Stored<'_>, dimension: u8, threads: Option<usize>)
         bytemuck::cast_slice(slice)
     }
     fn parts<const N: usize>(
-        [simplices, links, hull, duplicate_of, constraints]: [&[i32]; 5],
+        [simplices, links, hull, duplicate_of, constraints, hidden]: [&[i32]; 6],
+        weights: &[f64],
         dimension: u8,
     ) -> Arrays<N> {
         Arrays {
@@ -105,16 +119,25 @@ pub(crate) fn restore(arrays: Stored<'_>, dimension: u8, threads: Option<usize>)
             hull: words(hull).to_vec(),
             duplicate_of: words(duplicate_of).to_vec(),
             constraints: words(constraints).as_chunks().0.to_vec(),
+            weights: weights.to_vec(),
+            hidden: words(hidden).to_vec(),
             dimension,
         }
     }
     let corners = arrays.0.shape()[1];
-    let (simplices, links, hull, duplicate_of, constraints) = &arrays;
-    let slices =
-        [simplices.as_slice()?, links.as_slice()?, hull.as_slice()?, duplicate_of.as_slice()?, constraints.as_slice()?];
+    let (simplices, links, hull, duplicate_of, constraints, hidden, weights) = &arrays;
+    let slices = [
+        simplices.as_slice()?,
+        links.as_slice()?,
+        hull.as_slice()?,
+        duplicate_of.as_slice()?,
+        constraints.as_slice()?,
+        hidden.as_slice()?,
+    ];
+    let weights = weights.as_slice()?;
     match corners {
-        3 => Ok(Mesh::two(Mesh2::from_arrays(parts(slices, dimension)), threads)),
-        4 => Ok(Mesh::three(Mesh3::from_arrays(parts(slices, dimension)), threads)),
+        3 => Ok(Mesh::two(Mesh2::from_arrays(parts(slices, weights, dimension)), threads)),
+        4 => Ok(Mesh::three(Mesh3::from_arrays(parts(slices, weights, dimension)), threads)),
         _ => Err(PyValueError::new_err("the arrays are not those of a mesh")),
     }
 }
@@ -163,6 +186,24 @@ impl Mesh {
         match &self.either {
             Either::Two(data) => arrays::view(py, data.mesh.clone(), data.mesh.constraints.as_flattened(), Some(2)),
             Either::Three(data) => arrays::view(py, data.mesh.clone(), &[], Some(2)),
+        }
+    }
+
+    /// The points that are no vertices because of their weights.
+    #[getter]
+    fn hidden<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        match &self.either {
+            Either::Two(data) => arrays::view(py, data.mesh.clone(), &data.mesh.hidden, None),
+            Either::Three(data) => arrays::view(py, data.mesh.clone(), &data.mesh.hidden, None),
+        }
+    }
+
+    /// The weights of the points; none for a Delaunay triangulation.
+    #[getter]
+    fn weights<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        match &self.either {
+            Either::Two(data) => PyArray1::from_slice(py, &data.mesh.weights),
+            Either::Three(data) => PyArray1::from_slice(py, &data.mesh.weights),
         }
     }
 
@@ -378,6 +419,25 @@ impl Mesh {
         Ok(Mesh { either, threads: self.threads })
     }
 
+    /// The mesh of the same points with these weights.
+    #[pyo3(signature = (points, weights, backend, progress))]
+    fn update_weights(
+        &self,
+        py: Python<'_>,
+        points: &Bound<'_, PyAny>,
+        weights: PyReadonlyArray1<'_, f64>,
+        backend: &str,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Mesh> {
+        let (input, options) = (Input::new(points)?, Options::new(backend, self.threads, progress)?);
+        let weights = weights.as_slice()?;
+        let either = match &self.either {
+            Either::Two(data) => Either::Two(reweighted(data, py, &input, weights, &options)?),
+            Either::Three(data) => Either::Three(reweighted(data, py, &input, weights, &options)?),
+        };
+        Ok(Mesh { either, threads: self.threads })
+    }
+
     /// The mesh with these points as well, and all points.
     #[pyo3(signature = (points, new, backend, progress))]
     fn insert<'py>(
@@ -458,6 +518,8 @@ fn state<'py, M: Core<D, N>, const D: usize, const N: usize>(
         view(mesh.hull(), None)?,
         view(mesh.duplicate_of(), None)?,
         view(mesh.constraints().as_flattened(), Some(2))?,
+        view(mesh.hidden(), None)?,
+        PyArray1::from_slice(py, mesh.weights()).into_any(),
     ];
     Ok((arrays, mesh.dimension()))
 }
@@ -478,11 +540,26 @@ fn updated<M: Core<D, N>, const D: usize, const N: usize>(
             hull: Vec::new(),
             duplicate_of: old.duplicate_of().to_vec(),
             constraints: old.constraints().to_vec(),
+            weights: old.weights().to_vec(),
+            hidden: Vec::new(),
             dimension: old.dimension(),
         });
         by.update(&mut mesh, points)?;
         Ok(mesh)
     })?;
+    Ok(Data::new(mesh))
+}
+
+fn reweighted<M: Core<D, N>, const D: usize, const N: usize>(
+    data: &Data<M, D, N>,
+    py: Python<'_>,
+    input: &Input<'_>,
+    weights: &[f64],
+    options: &Options,
+) -> PyResult<Data<M, D, N>> {
+    let points = input.points::<D>()?;
+    let mut mesh = M::clone(&data.mesh);
+    compute::triangulate(py, options, points.len(), |by| by.update_weights(&mut mesh, points, weights))?;
     Ok(Data::new(mesh))
 }
 

@@ -62,7 +62,7 @@ where
             error => error,
         })?;
         let all = || (first..).zip(points.iter()).map(|(index, at)| Indexed { index, at });
-        let is_chosen = |p: &Indexed<D>| every <= 1 || mix(p.index.into()) % u64::from(every) == 0;
+        let is_chosen = |p: &Indexed<D>| every <= 1 || mix(p.index.into()).is_multiple_of(every.into());
         // Most of a few points span what all do.
         let few = frame(all().take(FEW));
         let frame = if few.len() > D { few } else { frame(all()) };
