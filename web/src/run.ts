@@ -1,6 +1,7 @@
 // Runs on points: triangulations from scratch, and updates of meshes whose points have moved.
 
 import { codeEdit, module2d, module3d, moduleEdit } from '#assets';
+import { isDetached } from './arrays.js';
 import { builtin } from './builtin.js';
 import type { Device } from './device.js';
 import { GdelError, thrown } from './errors.js';
@@ -263,6 +264,10 @@ async function together<T extends Task>(
     const work = (hosts: readonly Host[]) =>
       inWorkers(hosts, moduleEdit, { ...kind, ...job, outputs }, stop);
     return (await host.together(job.threads, work)) as Done<T> | null;
+  } catch (error) {
+    // One needs less memory.
+    if ((error as GdelError).code === 'OUT_OF_MEMORY' && !isDetached(job.args.points)) return null;
+    throw error;
   } finally {
     stop.release();
   }

@@ -40,7 +40,8 @@ export async function inWorkers(
     sending.transfer[0] = args.points.buffer;
     if (split.spanned < dimension || place.thread !== 'worker') return null;
     const onProgress = (progress: Progress) => stop.report(progress);
-    const joined = await inTiles({ hosts, asset }, dimension, split, onProgress).catch((error) => {
+    const tiling = inTiles({ hosts, asset }, dimension, split, started, onProgress);
+    const joined = await tiling.catch((error) => {
       if (isGiven) giveBack(error, args.points);
       throw error;
     });
@@ -85,10 +86,11 @@ async function inTiles(
   { hosts, asset }: Workers,
   dimension: 2 | 3,
   { plan, parts, points }: Tasks['splitPoints']['result'],
+  started: number,
   onProgress: (progress: Progress) => void,
 ): Promise<Joined | null> {
   const phases: CoreStats['phases'] = [];
-  let last = performance.now();
+  let last = started;
   const lap = (name: string) => {
     const now = performance.now();
     phases.push({ name, milliseconds: now - last });
@@ -116,7 +118,7 @@ async function inTiles(
     return step(number, { begin, messages: [] }, [points.buffer, indices.buffer]);
   });
   let sent = await Promise.all(begun);
-  lap('start');
+  lap('split');
   for (let steps = 1; steps === 1 || sent.some(({ length }) => length > 0); steps++) {
     const { received, bytes } = delivered(sent);
     // A point takes eight bytes, and eight for each coordinate.

@@ -25,11 +25,12 @@ export function showResult(summary: Summary, name: string): void {
 const FLAT = ['all in one place', 'all on one line', 'all in one plane'];
 
 /** Returns the backend and its adapter in words, or why it was the CPU. */
-export function backendOf({ backend, adapter, fallback }: Stats): string {
+export function backendOf({ backend, adapter, fallback, threads }: Stats): string {
   if (backend === 'gpu') return `On the GPU: ${adapter ? nameOf(adapter) : 'WebGPU'}`;
-  if (!fallback) return 'On the CPU, in WebAssembly';
+  const cpu = threads > 1 ? `On the CPU, by ${threads} workers` : 'On the CPU';
+  if (!fallback) return threads > 1 ? cpu : `${cpu}, in WebAssembly`;
   // The package's numbers have no separators.
-  return `On the CPU: ${fallback.replace(/\b\d{4,}\b/g, (digits) => count(Number(digits)))}`;
+  return `${cpu}: ${fallback.replace(/\b\d{4,}\b/g, (digits) => count(Number(digits)))}`;
 }
 
 /** Browsers leave out much of what they know about an adapter. */
