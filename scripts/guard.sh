@@ -26,7 +26,7 @@ for argument in "$@"; do
 done
 [[ ${#sections[@]} -gt 0 ]] || sections=(instructions gpu sizes)
 
-scripts/setup.sh guard
+[[ ${sections[*]} == sizes ]] || scripts/setup.sh guard
 counts=target/guard
 mkdir -p "$counts"
 

@@ -39,9 +39,6 @@ use crate::{
 };
 use std::{ops::Range, sync::Arc};
 
-/// The maximum number of points of a whole input: indices have 32 bits, and one of them means none.
-pub(crate) const MAX_POINTS: usize = u32::MAX as usize;
-
 /// Calls `work` for all of `len` items, a few thousand at a time.
 ///
 /// Engines of WebAssembly replace code by faster code only when it is called again, which a loop is not.

@@ -4,6 +4,7 @@ use crate::{
     cpu::Incremental,
     dimension::Dimension,
     error::Error,
+    index::NONE,
     input::{order::mix, points::Points},
     parallel::Threads,
 };
@@ -53,9 +54,10 @@ where
     /// the whole input, and [`Error::TooManyPoints`] if the indices do not fit into 32 bits.
     pub fn new<'a>(points: impl Into<Points<'a, D>>, first: u32, every: u32) -> Result<Self, Error> {
         let points = points.into();
-        let end = first as usize + points.len();
-        if end > super::MAX_POINTS {
-            return Err(Error::TooManyPoints { points: end, limit: super::MAX_POINTS });
+        // One of the indices of 32 bits means none.
+        let end = u64::from(first) + points.len() as u64;
+        if end > u64::from(NONE) {
+            return Err(Error::TooManyPoints { points: end as usize, limit: NONE as usize });
         }
         points.finite_bounds(Threads::All).map_err(|error| match error {
             Error::NotFinite { index, axis, value } => Error::NotFinite { index: index + first as usize, axis, value },
