@@ -33,6 +33,9 @@ pub struct Plan<const D: usize> {
     pub(super) common: Vec<Indexed<D>>,
 }
 
+/// More tiles than this would know more of each other than of themselves.
+const MAX_TILES: u32 = 1 << 16;
+
 const PLAN: u32 = u32::from_le_bytes(*b"gdtp");
 
 /// A part of space.
@@ -48,11 +51,11 @@ impl<const D: usize> Plan<D>
 where
     Dimension<D>: Incremental<D>,
 {
-    /// Plans so many tiles, at least one.
+    /// Plans so many tiles: at least one, and at most 65,536.
     pub fn new(survey: Survey<D>, tiles: u32) -> Self {
         let mut sample: Vec<[f64; D]> = survey.sample().collect();
         let mut plan = Plan {
-            tiles: tiles.max(1),
+            tiles: tiles.clamp(1, MAX_TILES),
             dimension: survey.dimension(),
             nodes: Vec::new(),
             common: survey.into_common(),
@@ -145,8 +148,9 @@ where
                 _ => return Err(Error::BadMessage { reason: "it cuts off a part that is not there" }),
             };
         }
-        if !matches!(plan.nodes.last(), Some(Node::Tile(_))) {
-            return Err(Error::BadMessage { reason: "its last part is not a tile" });
+        let leaves = plan.nodes.iter().filter(|node| matches!(node, Node::Tile(_))).count();
+        if !matches!(plan.nodes.last(), Some(Node::Tile(_))) || leaves != tiles as usize {
+            return Err(Error::BadMessage { reason: "its parts are not as many as it says" });
         }
         for p in &mut plan.common {
             (p.index, _, p.at) = (bytes.word()?, bytes.word()?, bytes.point()?);

@@ -175,6 +175,10 @@ fn broken_bytes_are_errors() {
     let plan = Plan::new(Survey::<3>::new(&points, 0, 10).unwrap(), 4);
     let mut tile = Tile::<3, 4>::new(plan.clone(), 1, Vec::new(), Vec::new()).unwrap();
     let (_, hello) = tile.step(Vec::new()).unwrap().swap_remove(0);
+    let mut many = plan.to_bytes();
+    many[8..12].copy_from_slice(&u32::MAX.to_le_bytes());
+    assert!(Plan::<3>::from_bytes(&many).is_err(), "so many tiles are not in it");
+    assert_eq!(Plan::new(Survey::<3>::new(&points, 0, 10).unwrap(), u32::MAX).tiles(), 1 << 16);
     let mut random = Pcg64Mcg::seed_from_u64(1);
     for (bytes, is_plan) in [(plan.to_bytes(), true), (hello.to_bytes(), false)] {
         let is_read = |bytes: &[u8]| match is_plan {
