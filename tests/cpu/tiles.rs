@@ -91,6 +91,16 @@ fn tiles_agree_on_ties_and_duplicates_across_their_borders() {
 }
 
 #[test]
+fn tiles_agree_on_a_scan_which_is_hollow() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/bunny.ply");
+    let bunny = gdel_io::files::read_points(std::path::Path::new(path)).expect("the bunny");
+    let bunny: Vec<[f64; 3]> = Points::from(&bunny).iter().collect();
+    check3("bunny", &bunny, 100);
+    let above: Vec<[f64; 2]> = bunny.iter().map(|&[x, _, z]| [x, z]).collect();
+    check2("bunny from above", &above, 100);
+}
+
+#[test]
 fn degenerate_inputs_agree() {
     for case in degenerate::cases(150) {
         let mut random = Pcg64Mcg::seed_from_u64(case);

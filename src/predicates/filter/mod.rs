@@ -66,8 +66,8 @@ pub struct PredicateContext<'a, const D: usize, const W: bool = false> {
     lattice: Lattice<D>,
     /// The input index of each vertex; empty if the vertices are the input points in their order.
     indices: Arc<Vec<u32>>,
-    /// The index by which ties are broken, of each input point; empty if that is its index in the input.
-    ranks: &'a [u32],
+    /// The index by which the ties of each vertex are broken: its input index, unless the caller has others.
+    ties: Arc<Vec<u32>>,
     /// Input coordinates times a power of two that brings the range of every axis below 2³¹; for a
     /// narrow lattice, the lattice coordinates. Empty if they are computed each time.
     coordinates: Arc<Vec<[f64; D]>>,
@@ -182,8 +182,10 @@ impl<'a, const D: usize> PredicateContext<'a, D> {
     }
 
     /// Breaks the ties of input point *i* by the index `ranks[i]`.
-    pub(crate) fn ranked(self, ranks: &'a [u32]) -> Self {
-        PredicateContext { ranks, ..self }
+    pub(crate) fn ranked(self, ranks: &[u32]) -> Self {
+        let of_vertices = self.indices.iter().map(|&i| ranks[i as usize]).collect();
+        let ties = if self.indices.is_empty() { ranks.to_vec() } else { of_vertices };
+        PredicateContext { ties: Arc::new(ties), ..self }
     }
 
     /// Creates a context whose vertices are the points of the input in their order. The points must
@@ -234,6 +236,7 @@ impl<'a, const D: usize, const W: bool> PredicateContext<'a, D, W> {
         }
         self.coordinates = Arc::new(coordinates);
         self.indices = Arc::new(indices);
+        self.ties = Arc::clone(&self.indices);
     }
 
     /// Returns a context of the same vertices for another thread, which shares what is stored and
@@ -243,7 +246,7 @@ impl<'a, const D: usize, const W: bool> PredicateContext<'a, D, W> {
             input: self.input,
             lattice: self.lattice.clone(),
             indices: Arc::clone(&self.indices),
-            ranks: self.ranks,
+            ties: Arc::clone(&self.ties),
             coordinates: Arc::clone(&self.coordinates),
             weights: self.weights.clone(),
             scaling: self.scaling.clone(),
@@ -267,7 +270,7 @@ impl<'a, const D: usize, const W: bool> PredicateContext<'a, D, W> {
             input,
             lattice: lattice.clone(),
             indices: Arc::default(),
-            ranks: &[],
+            ties: Arc::default(),
             coordinates: Arc::default(),
             weights: Weights { input: weights, scaled: Arc::default() },
             scaling,
@@ -320,8 +323,7 @@ impl<'a, const D: usize, const W: bool> PredicateContext<'a, D, W> {
     /// Returns the index by which the ties of vertex `v` are broken.
     #[inline]
     fn rank(&self, v: u32) -> u32 {
-        let index = self.input_index(v);
-        self.ranks.get(index as usize).copied().unwrap_or(index)
+        self.ties.get(v as usize).copied().unwrap_or(v)
     }
 
     /// Returns the input index of every vertex.
