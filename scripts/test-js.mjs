@@ -19,11 +19,16 @@ const HANG = 25 * 60_000;
 
 /** The files that take longest come first, so that none of them is left over at the end. */
 const SLOW = [
+  'tests/web/node-gpu',
+  'tests/web/update-gpu',
   'www/tests/demo',
-  'www/tests/demo-2d',
-  'www/tests/gpu',
+  'tests/web/caller-device',
   'www/tests/scans',
-  'www/tests/gpu-cut',
+  'www/tests/demo-2d',
+  'www/tests/gallery',
+  'tests/web/self-test',
+  'tests/web/gpu-stand-in',
+  'www/tests/gpu',
   'tests/web/chromium',
 ];
 
