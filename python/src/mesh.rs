@@ -11,7 +11,7 @@ use crate::{
     tree::Tree,
     voronoi,
 };
-use gdel::{Error, Mesh2, Mesh3, Points, internals::geometry::Euclidean};
+use gdel::{Error, Mesh2, Mesh3, Points, Triangulator, internals::geometry::Euclidean};
 use numpy::{PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::{exceptions::PyValueError, prelude::*, types::PyDict};
 
@@ -432,8 +432,12 @@ impl Mesh {
         let (input, options) = (Input::new(points)?, Options::new(backend, self.threads, progress)?);
         let weights = weights.as_slice()?;
         let either = match &self.either {
-            Either::Two(data) => Either::Two(reweighted(data, py, &input, weights, &options)?),
-            Either::Three(data) => Either::Three(reweighted(data, py, &input, weights, &options)?),
+            Either::Two(data) => Either::Two(changed(data, py, &input, &options, |by, mesh, points| {
+                by.update_weights(mesh, points, weights)
+            })?),
+            Either::Three(data) => Either::Three(changed(data, py, &input, &options, |by, mesh, points| {
+                by.update_weights(mesh, points, weights)
+            })?),
         };
         Ok(Mesh { either, threads: self.threads })
     }
@@ -475,8 +479,12 @@ impl Mesh {
     ) -> PyResult<Mesh> {
         let (input, options) = (Input::new(points)?, Options::new(backend, self.threads, progress)?);
         let either = match &self.either {
-            Either::Two(data) => Either::Two(removed(data, py, &input, &indices, &options)?),
-            Either::Three(data) => Either::Three(removed(data, py, &input, &indices, &options)?),
+            Either::Two(data) => {
+                Either::Two(changed(data, py, &input, &options, |by, mesh, points| by.remove(mesh, points, &indices))?)
+            }
+            Either::Three(data) => Either::Three(changed(data, py, &input, &options, |by, mesh, points| {
+                by.remove(mesh, points, &indices)
+            })?),
         };
         Ok(Mesh { either, threads: self.threads })
     }
@@ -550,19 +558,6 @@ fn updated<M: Core<D, N>, const D: usize, const N: usize>(
     Ok(Data::new(mesh))
 }
 
-fn reweighted<M: Core<D, N>, const D: usize, const N: usize>(
-    data: &Data<M, D, N>,
-    py: Python<'_>,
-    input: &Input<'_>,
-    weights: &[f64],
-    options: &Options,
-) -> PyResult<Data<M, D, N>> {
-    let points = input.points::<D>()?;
-    let mut mesh = M::clone(&data.mesh);
-    compute::triangulate(py, options, points.len(), |by| by.update_weights(&mut mesh, points, weights))?;
-    Ok(Data::new(mesh))
-}
-
 fn inserted<'py, M: Core<D, N>, const D: usize, const N: usize>(
     data: &Data<M, D, N>,
     py: Python<'py>,
@@ -594,16 +589,17 @@ where
     }
 }
 
-fn removed<M: Core<D, N>, const D: usize, const N: usize>(
+/// Changes a copy of a mesh.
+fn changed<M: Core<D, N>, const D: usize, const N: usize>(
     data: &Data<M, D, N>,
     py: Python<'_>,
     input: &Input<'_>,
-    indices: &[u32],
     options: &Options,
+    change: impl FnOnce(&Triangulator, &mut M, Points<'_, D>) -> Result<(), Error> + Send,
 ) -> PyResult<Data<M, D, N>> {
     let points = input.points::<D>()?;
     let mut mesh = M::clone(&data.mesh);
-    compute::triangulate(py, options, points.len(), |by| by.remove(&mut mesh, points, indices))?;
+    compute::triangulate(py, options, points.len(), |by| change(by, &mut mesh, points))?;
     Ok(Data::new(mesh))
 }
 

@@ -72,7 +72,22 @@ where
     options: Options,
     /// The steps so far.
     steps: u32,
-    /// The points that the tile knows, which are the vertices: first its own, in the order of their indices, then the
+    cloud: Cloud<D>,
+    /// For each of its own points the one that it duplicates, or [`NONE`].
+    duplicate_of: Vec<u32>,
+    triangulation: Option<<Dimension<D> as Incremental<D>>::Triangulation>,
+    /// How the tile was computed.
+    stats: Stats,
+    /// For each tile, the box of its own points.
+    bounds: Vec<Option<[[f64; D]; 2]>>,
+    /// For each tile, the vertices that it knows, without common ones of other tiles.
+    sent: Vec<FxHashSet<u32>>,
+}
+
+/// The points that a tile knows, which are its vertices.
+#[derive(Debug)]
+struct Cloud<const D: usize> {
+    /// First the tile's own points, in the order of their indices, then the
     /// common ones of other tiles, then others.
     points: Vec<[f64; D]>,
     /// The index of each in the whole input.
@@ -85,15 +100,17 @@ where
     owners: Vec<u32>,
     /// The indices of the points of other tiles.
     known: FxHashSet<u32>,
-    /// For each of its own points the one that it duplicates, or [`NONE`].
-    duplicate_of: Vec<u32>,
-    triangulation: Option<<Dimension<D> as Incremental<D>>::Triangulation>,
-    /// How the tile was computed.
-    stats: Stats,
-    /// For each tile, the box of its own points.
-    bounds: Vec<Option<[[f64; D]; 2]>>,
-    /// For each tile, the vertices that it knows, without common ones of other tiles.
-    sent: Vec<FxHashSet<u32>>,
+}
+
+impl<const D: usize> Cloud<D> {
+    /// Adds a point of another tile.
+    fn learn(&mut self, p: Known<D>) {
+        if self.known.insert(p.index) {
+            self.points.push(p.at);
+            self.indices.push(p.index);
+            self.owners.push(p.owner);
+        }
+    }
 }
 
 impl<const D: usize, const N: usize> Tile<D, N>
@@ -151,12 +168,14 @@ where
             number,
             options,
             steps: 0,
-            own: points.len() as u32,
-            common: 0,
-            points,
-            indices,
-            owners: Vec::new(),
-            known: FxHashSet::default(),
+            cloud: Cloud {
+                own: points.len() as u32,
+                common: 0,
+                points,
+                indices,
+                owners: Vec::new(),
+                known: FxHashSet::default(),
+            },
             duplicate_of: Vec::new(),
             triangulation: None,
             stats: Stats::new(Backend::Cpu),
@@ -185,9 +204,9 @@ where
                 Ok(self.outgoing(0, true))
             }
             _ => {
-                let first = self.points.len();
+                let first = self.cloud.points.len();
                 self.add(threads, received)?;
-                Ok(if first == self.points.len() { Vec::new() } else { self.outgoing(first as u32, false) })
+                Ok(if first == self.cloud.points.len() { Vec::new() } else { self.outgoing(first as u32, false) })
             }
         })
     }
@@ -195,11 +214,11 @@ where
     /// Returns the simplices of the whole triangulation of which the vertex with the lowest index is one of the tile's
     /// own.
     pub fn finish(mut self) -> Part<N> {
-        let duplicates = self.indices.iter().copied().zip(self.duplicate_of.iter().copied());
+        let duplicates = self.cloud.indices.iter().copied().zip(self.duplicate_of.iter().copied());
         let duplicates = duplicates.filter(|&(_, first)| first != NONE).map(Into::into).collect();
         let mut part = Part { duplicates, ..Part::new(self.plan.dimension()) };
         if let Some(triangulation) = self.triangulation.take() {
-            part::fill::<D, N>(&mut part, triangulation, &self.indices, self.vertices(), self.options.winding);
+            part::fill::<D, N>(&mut part, triangulation, &self.cloud.indices, self.vertices(), self.options.winding);
         }
         part
     }
@@ -211,7 +230,7 @@ where
 
     /// Returns whose the vertices are.
     fn vertices(&self) -> Vertices<'_> {
-        Vertices { number: self.number, own: self.own, common: self.common, owners: &self.owners }
+        Vertices { number: self.number, own: self.cloud.own, common: self.cloud.common, owners: &self.cloud.owners }
     }
 
     /// Tells the other tiles where the tile's own points are, and which of the common points duplicate others of them.
@@ -219,14 +238,14 @@ where
         let key = |p: &[f64; D]| p.map(|x| (x + 0.0).to_bits());
         let own = self.plan.common.iter().filter(|p| self.plan.tile_of(p.at) == self.number);
         let mut first_at: FxHashMap<[u64; D], u32> = own.clone().map(|p| (key(&p.at), p.index)).collect();
-        for (p, &index) in self.points.iter().zip(&self.indices) {
+        for (p, &index) in self.cloud.points.iter().zip(&self.cloud.indices) {
             if let Some(first) = first_at.get_mut(&key(p)) {
                 *first = index.min(*first);
             }
         }
         let first_of = own.map(|p| [p.index, first_at[&key(&p.at)]]);
         let duplicates = first_of.filter(|[index, first]| first < index).collect();
-        let bounds = Points::F64(&self.points).bounds();
+        let bounds = Points::F64(&self.cloud.points).bounds();
         self.bounds[self.number as usize] = bounds;
         let others = (0..self.plan.tiles()).filter(|&to| to != self.number);
         let hello = Message(Content::Hello { bounds, duplicates });
@@ -246,7 +265,7 @@ where
         if heard.len() + 1 != self.plan.tiles() as usize {
             return Err(Error::BadMessage { reason: "not all tiles have sent one" });
         }
-        if self.own == 0 {
+        if self.cloud.own == 0 {
             return Ok(());
         }
         let plan = Arc::clone(&self.plan);
@@ -254,25 +273,24 @@ where
             let owner = plan.tile_of(p.at);
             let index = first_of.get(&p.index).copied().unwrap_or(p.index);
             if owner != self.number {
-                if self.known.insert(index) {
-                    self.learn(Known { index, owner, at: p.at });
-                }
-            } else if let Ok(v) = self.indices[..self.own as usize].binary_search(&index) {
+                self.cloud.learn(Known { index, owner, at: p.at });
+            } else if let Ok(v) = self.cloud.indices[..self.cloud.own as usize].binary_search(&index) {
                 self.sent.iter_mut().for_each(|sent| _ = sent.insert(v as u32));
             }
         }
-        self.common = self.owners.len() as u32;
-        let points = Points::F64(&self.points);
+        self.cloud.common = self.cloud.owners.len() as u32;
+        self.check_count()?;
+        let points = Points::F64(&self.cloud.points);
         let lattice = Lattice::fit_by(threads, points)?;
         let Distinct { mut order, rounds, duplicate_of } =
             insertion_order(threads, points, &lattice, Dimension::<D>::CURVE, Order::Brio);
-        let index = |i: u32| if i == NONE { NONE } else { self.indices[i as usize] };
-        self.duplicate_of = duplicate_of[..self.own as usize].iter().map(|&i| index(i)).collect();
+        let index = |i: u32| if i == NONE { NONE } else { self.cloud.indices[i as usize] };
+        self.duplicate_of = duplicate_of[..self.cloud.own as usize].iter().map(|&i| index(i)).collect();
         if usize::from(plan.dimension()) < D {
             return Ok(());
         }
         Dimension::<D>::spanning_first(points, &mut order);
-        let context = PredicateContext::new_by(threads, points, &lattice, order).ranked(&self.indices);
+        let context = PredicateContext::new_by(threads, points, &lattice, order).ranked(&self.cloud.indices);
         let mut triangulation = Dimension::<D>::triangulate(threads, &context, &rounds, &self.options)?;
         self.stats.exact = context.exact_counts();
         Dimension::<D>::rename(&mut triangulation, &context.into_input_indices(), points.len() as u32);
@@ -280,16 +298,15 @@ where
         Ok(())
     }
 
-    /// Adds a point of another tile.
-    fn learn(&mut self, p: Known<D>) {
-        self.points.push(p.at);
-        self.indices.push(p.index);
-        self.owners.push(p.owner);
+    /// Checks that one triangulation can have all points that the tile knows.
+    fn check_count(&self) -> Result<(), Error> {
+        let (points, limit) = (self.cloud.points.len(), <Dimension<D> as Incremental<D>>::MAX_POINTS);
+        if points > limit { Err(Error::TooManyPoints { points, limit }) } else { Ok(()) }
     }
 
     /// Inserts what other tiles have sent.
     fn add(&mut self, threads: Threads, received: Vec<(u32, Message<D>)>) -> Result<(), Error> {
-        let before = self.points.len();
+        let before = self.cloud.points.len();
         let mut received_from = Vec::new();
         for (from, message) in received {
             let Content::Points(points) = message.0 else { return Err(UNEXPECTED) };
@@ -298,20 +315,15 @@ where
                     return Err(Error::BadMessage { reason: "it has a point of another tile than it says" });
                 }
                 received_from.push((from, p.index));
-                if self.known.insert(p.index) {
-                    self.learn(p);
-                }
+                self.cloud.learn(p);
             }
         }
-        let limit = <Dimension<D> as Incremental<D>>::MAX_POINTS;
-        if self.points.len() > limit {
-            return Err(Error::TooManyPoints { points: self.points.len(), limit });
-        }
+        self.check_count()?;
         let Some(triangulation) = &mut self.triangulation else { return Ok(()) };
-        if self.points.len() == before {
+        if self.cloud.points.len() == before {
             return Ok(());
         }
-        let points = Points::F64(&self.points);
+        let points = Points::F64(&self.cloud.points);
         let lattice = Lattice::fit_by(threads, points)?;
         let new = points.range(before..points.len());
         let Distinct { mut order, .. } = insertion_order(threads, new, &lattice, Dimension::<D>::CURVE, Order::Brio);
@@ -325,14 +337,14 @@ where
         } else {
             PredicateContext::of_input(points, &lattice)
         };
-        let context = context.ranked(&self.indices);
+        let context = context.ranked(&self.cloud.indices);
         let is_used = |&t: &u32| Dimension::<D>::simplex(triangulation, t).is_some();
         let start = (0..Dimension::<D>::slots(triangulation)).find(is_used).unwrap_or(0);
         let options = &self.options;
         insert_points(triangulation, &context, order, start, |_| options.report(Phase::Insert, 1.0))?;
         self.stats.exact = self.stats.exact + context.exact_counts();
         // Who has sent a point knows it.
-        let names = (before as u32..).zip(&self.indices[before..]);
+        let names = (before as u32..).zip(&self.cloud.indices[before..]);
         let vertex_of: FxHashMap<u32, u32> = names.map(|(v, &index)| (index, v)).collect();
         for (from, index) in received_from {
             if let Some(&v) = vertex_of.get(&index) {
@@ -350,16 +362,16 @@ where
         let border = Border::new(triangulation, self.vertices(), first);
         let mut outgoing = vec![Vec::new(); sent.len()];
         // The tile that each vertex was last sent to: most simplices around a vertex have the same neighbours.
-        let mut last = vec![NONE; self.points.len()];
+        let mut last = vec![NONE; self.cloud.points.len()];
         let mut send = |to: u32, v: u32| {
             if std::mem::replace(&mut last[v as usize], to) != to && sent[to as usize].insert(v) {
                 let i = v as usize;
-                let owner = i.checked_sub(self.own as usize).map_or(self.number, |i| self.owners[i]);
-                outgoing[to as usize].push(Known { index: self.indices[i], owner, at: self.points[i] });
+                let owner = i.checked_sub(self.cloud.own as usize).map_or(self.number, |i| self.cloud.owners[i]);
+                outgoing[to as usize].push(Known { index: self.cloud.indices[i], owner, at: self.cloud.points[i] });
             }
         };
         if is_beginning {
-            border.push(|v| self.points[v as usize], &self.bounds, &mut send);
+            border.push(|v| self.cloud.points[v as usize], &self.bounds, &mut send);
         }
         border.exchange(&mut send);
         self.sent = sent;

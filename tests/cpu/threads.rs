@@ -22,18 +22,20 @@ fn triangulator(threads: usize) -> Triangulator {
     Triangulator::new().backend(Backend::Cpu).threads(NonZeroUsize::new(threads).unwrap())
 }
 
+/// Returns the facets of the hull in a form that is equal for equal hulls.
+pub fn facets(mesh: &Mesh3) -> Vec<[u32; 3]> {
+    let mut facets = mesh.hull.clone();
+    // A rotation keeps the orientation.
+    facets.iter_mut().for_each(|facet| {
+        let lowest = (0..3).min_by_key(|&k| facet[k]).unwrap();
+        facet.rotate_left(lowest);
+    });
+    facets.sort_unstable();
+    facets
+}
+
 fn check3(name: &str, points: &[[f64; 3]]) {
     let [expected, meshes @ ..] = &THREADS.map(|threads| triangulator(threads).delaunay3d(points).unwrap());
-    let facets = |mesh: &Mesh3| {
-        let mut facets = mesh.hull.clone();
-        // A rotation keeps the orientation.
-        facets.iter_mut().for_each(|facet| {
-            let lowest = (0..3).min_by_key(|&k| facet[k]).unwrap();
-            facet.rotate_left(lowest);
-        });
-        facets.sort_unstable();
-        facets
-    };
     for (mesh, threads) in meshes.iter().zip(&THREADS[1..]) {
         assert!(mesh.canonical() == expected.canonical(), "{name}, {threads} threads");
         assert!(facets(mesh) == facets(expected), "{name}, {threads} threads");

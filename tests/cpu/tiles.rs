@@ -1,6 +1,6 @@
 //! Any number of tiles makes the mesh of all points.
 
-use crate::{clouds, degenerate};
+use crate::{clouds, degenerate, threads::facets};
 use gdel::{
     Error, Mesh2, Mesh3, NONE, Points,
     internals::{
@@ -23,13 +23,7 @@ const TILES: [u32; 5] = [1, 2, 3, 8, 64];
 /// Returns how many facets are on the hull, and the facets of the hull.
 fn hull3(mesh: &Mesh3) -> (usize, Vec<[u32; 3]>) {
     let outside = mesh.neighbors.as_flattened().iter().filter(|&&t| t == NONE).count();
-    let mut hull = mesh.hull.clone();
-    hull.iter_mut().for_each(|facet| {
-        let lowest = (0..3).min_by_key(|&k| facet[k]).unwrap();
-        facet.rotate_left(lowest);
-    });
-    hull.sort_unstable();
-    (outside, hull)
+    (outside, facets(mesh))
 }
 
 fn check3(name: &str, points: &[[f64; 3]], every: u32) {

@@ -1,7 +1,13 @@
 // Triangulations by several workers, each of which has a tile of the points. A part of the code that is loaded when there
 // are several.
 
-import type { Bytes, Coordinates, Indices, SignedIndices } from './arrays.js';
+import {
+  type Bytes,
+  buffersOf,
+  type Coordinates,
+  type Indices,
+  type SignedIndices,
+} from './arrays.js';
 import { giveBack } from './errors.js';
 import type { Host, Sending } from './host.js';
 import { onlyOutputs } from './outputs.js';
@@ -125,7 +131,7 @@ async function inTiles(
     const pointBytes = 8 * (1 + dimension);
     if (steps === 2 && bytes > MUCH * (points.length / dimension) * pointBytes) return null;
     const taken = received.map((messages, number) =>
-      step(number, { messages }, buffersIn(messages)),
+      step(number, { messages }, buffersOf(messages)),
     );
     sent = await Promise.all(taken);
     if (steps === 1) lap('insert');
@@ -133,33 +139,45 @@ async function inTiles(
   lap('exchange');
   onProgress({ phase: 'finish', fraction: 0.8 });
 
+  const joined = await collected({ hosts, asset }, dimension, points, onProgress);
+  lap('finish');
+  return { ...joined, stats: { ...joined.stats, threads: hosts.length, phases } };
+}
+
+/** Has the workers finish their tiles, and joins these in the first worker. */
+async function collected(
+  { hosts, asset }: Workers,
+  dimension: 2 | 3,
+  points: Coordinates,
+  onProgress: (progress: Progress) => void,
+): Promise<Joined> {
+  const nothing = { transfer: [] };
   const tiles = await Promise.all(
-    hosts.map((host) => host.run(asset, 'finishTile', {}, { transfer: [] }, {})),
+    hosts.map((host) => host.run(asset, 'finishTile', {}, nothing, {})),
   );
-  const counts = tiles.map(({ result }) => result.simplices);
-  let base = 0;
-  const takings = counts.map((count, i) => {
-    base += count;
-    const args = { base: base - count };
-    return i === 0 ? undefined : hosts[i]!.run(asset, 'takeTile', args, { transfer: [] }, {});
+  let base = tiles[0]!.result.simplices;
+  const takings = hosts.slice(1).map((host, i) => {
+    const taking = host.run(asset, 'takeTile', { base }, nothing, {});
+    base += tiles[i + 1]!.result.simplices;
+    return taking;
   });
-  const taken = await Promise.all(takings.slice(1));
+  const others = (await Promise.all(takings)).map(({ result }) => result);
   onProgress({ phase: 'finish', fraction: 0.9 });
-  const others = taken.map((done) => done!.result);
   const all = {
     dimension,
     points: points.length / dimension,
-    simplices: counts[0]!,
+    simplices: tiles[0]!.result.simplices,
     others,
     duplicates: tiles.map(({ result }) => result.duplicates),
   };
-  const transfer = others.flatMap(({ simplices, neighbors }) => [
-    simplices.buffer,
-    neighbors.buffer,
-  ]);
-  const { result: arrays } = await hosts[0]!.run(asset, 'joinTiles', all, { transfer }, {});
-  lap('finish');
-  const stats = { ...tiles[0]!.result.stats, threads: hosts.length, phases };
+  const { result: arrays } = await hosts[0]!.run(
+    asset,
+    'joinTiles',
+    all,
+    { transfer: buffersOf(others) },
+    {},
+  );
+  const stats = { ...tiles[0]!.result.stats };
   for (const { result } of tiles.slice(1)) addTo(stats, result.stats);
   return { arrays, stats };
 }
@@ -177,11 +195,6 @@ function delivered(sent: Messages[]): { received: Messages[]; bytes: number } {
   }
   return { received, bytes };
 }
-
-/** Returns the memory of messages, of which those to all tiles share one when they take no way to a worker. */
-const buffersIn = (messages: Messages): ArrayBuffer[] => [
-  ...new Set(messages.flatMap((message) => (typeof message === 'number' ? [] : [message.buffer]))),
-];
 
 /** Adds what another worker has counted. */
 function addTo(stats: CoreStats, { exact, wasmBytes }: CoreStats): void {
