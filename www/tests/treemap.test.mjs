@@ -174,6 +174,24 @@ test('what is wrong with a table is said, and the next one is drawn', async () =
   await close(page);
 });
 
+test('the page is busy as soon as a table is dropped, and the last one of several is drawn', async () => {
+  const page = await openTreemap();
+  const busy = await page.evaluate(() => {
+    const stage = document.getElementById('stage');
+    const rows = Array.from({ length: 20_000 }, (_, i) => `row ${i},1`).join('\n');
+    return [`name,number\n${rows}`, 'a,1\nb,3'].map((table, i) => {
+      const dataTransfer = new DataTransfer();
+      dataTransfer.items.add(new File([table], `${i}.csv`));
+      stage.dispatchEvent(new DragEvent('drop', { dataTransfer, bubbles: true, cancelable: true }));
+      return stage.getAttribute('aria-busy');
+    });
+  });
+  assert.deepEqual(busy, ['true', 'true']);
+  await settled(page);
+  assert.equal((await areasOn(page)).length, 2);
+  await close(page);
+});
+
 test('shapes: each keeps its areas, and the address says which it is', async () => {
   const page = await openTreemap('#example=body');
   for (const shape of ['circle', 'hexagon', 'rectangle']) {

@@ -55,14 +55,19 @@ function tableNow(): { title: string; unit: string; csv: string } {
   return EXAMPLES[state.example ?? Object.keys(EXAMPLES)[0]];
 }
 
-/** Draws what the state says, from the table on. */
-async function update(): Promise<void> {
+/** Ends what is under way, for something new: the page is busy from now on. */
+function begin(): AbortSignal {
   running.abort();
   moving.abort();
   running = new AbortController();
-  const { signal } = running;
   stage.setAttribute('aria-busy', 'true');
   say(null);
+  return running.signal;
+}
+
+/** Draws what the state says, from the table on. */
+async function update(): Promise<void> {
+  const signal = begin();
   try {
     const { title, unit, csv } = tableNow();
     text.value = csv;
@@ -253,8 +258,17 @@ function change(more: Partial<State>): void {
 
 /** Takes a table of the visitor's. */
 async function take(file: File): Promise<void> {
-  own = { name: file.name, text: await file.text() };
-  change({ example: null, roles: {}, file: file.name, data: await pack(file) });
+  const signal = begin();
+  try {
+    const [content, data] = await Promise.all([file.text(), pack(file)]);
+    if (signal.aborted) return;
+    own = { name: file.name, text: content };
+    change({ example: null, roles: {}, file: file.name, data });
+  } catch (error) {
+    if (signal.aborted) return;
+    say(`“${file.name}” cannot be read: ${(error as Error).message}`);
+    stage.setAttribute('aria-busy', 'false');
+  }
 }
 
 function save(extension: string, type: string, content: string): void {
@@ -365,9 +379,11 @@ window.addEventListener('drop', (event) => {
 
 /** Shows what the address says. */
 async function start(): Promise<void> {
+  const signal = begin();
   state = stateFrom(location.hash);
   if (state.data) {
     const unpacked = await unpack(state.data, state.file!);
+    if (signal.aborted) return;
     if (unpacked) own = { name: unpacked.name, text: await unpacked.text() };
     else state = stateFrom('');
   }
