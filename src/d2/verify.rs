@@ -158,7 +158,7 @@ pub fn verify2d<'p, 'm>(points: impl Into<Points2<'p>>, mesh: impl Into<MeshView
     Ok(report)
 }
 
-fn check_indices(triangles: &[[u32; 3]], points: usize) -> Findings {
+pub(crate) fn check_indices(triangles: &[[u32; 3]], points: usize) -> Findings {
     let mut findings = Findings::default();
     if triangles.len() > i32::MAX as usize / 3 {
         let detail = format!("{} triangles have more half-edges than an index can name", triangles.len());
@@ -175,7 +175,7 @@ fn check_indices(triangles: &[[u32; 3]], points: usize) -> Findings {
     findings
 }
 
-fn check_orientation(points: &[[f64; 2]], triangles: &[[u32; 3]]) -> Findings {
+pub(crate) fn check_orientation(points: &[[f64; 2]], triangles: &[[u32; 3]]) -> Findings {
     let mut findings = Findings::default();
     for (t, vertices) in triangles.iter().enumerate() {
         let [a, b, c] = vertices.map(|v| points[v as usize]);
@@ -190,7 +190,7 @@ fn check_orientation(points: &[[f64; 2]], triangles: &[[u32; 3]]) -> Findings {
 
 /// Checks that the hull is convex. Needs the closed hull, counter-clockwise, and triangles that are
 /// counter-clockwise.
-fn check_hull_convex(points: &[[f64; 2]], polygon: &[u32]) -> Findings {
+pub(crate) fn check_hull_convex(points: &[[f64; 2]], polygon: &[u32]) -> Findings {
     let mut findings = Findings::default();
     let mut turns = 0;
     for i in 0..polygon.len() {
@@ -231,38 +231,50 @@ fn check_hull(stated: &[u32], expected: Vec<u32>) -> Findings {
 /// with weights; then, if it vanishes, that of the tie.
 #[inline(always)]
 fn incircle_of(input: &Input<2>, four: [u32; 4]) -> [Sign; 2] {
-    let at = |v: u32| input.points[v as usize];
-    let [a, b, c, d] = four.map(at);
-    let sign = if input.weights.is_empty() {
-        incircle(a, b, c, d)
-    } else {
-        power_sign([a, b, c, d], four.map(|v| input.weights[v as usize]))
-    };
-    let tie = || {
-        break_tie(four, |left_out| {
-            let [a, b, c] = without(four, left_out).map(at);
-            orient2d(a, b, c)
-        })
-    };
-    [sign, if sign == 0 { tie() } else { 0 }]
+    let corners = four.map(|v| input.points[v as usize]);
+    if input.weights.is_empty() {
+        return incircle_at(corners, four);
+    }
+    match power_sign(corners, four.map(|v| input.weights[v as usize])) {
+        0 => [0, tie(corners, four)],
+        sign => [sign, 0],
+    }
+}
+
+/// Returns the sign of the in-circle determinant of the last of four points with these indices; then, if it vanishes,
+/// that of the tie.
+#[inline(always)]
+pub(crate) fn incircle_at(four: [[f64; 2]; 4], indices: [u32; 4]) -> [Sign; 2] {
+    let [a, b, c, d] = four;
+    match incircle(a, b, c, d) {
+        0 => [0, tie(four, indices)],
+        sign => [sign, 0],
+    }
+}
+
+fn tie(four: [[f64; 2]; 4], indices: [u32; 4]) -> Sign {
+    break_tie(indices, |left_out| {
+        let [a, b, c] = without(four, left_out);
+        orient2d(a, b, c)
+    })
 }
 
 /// Triangles with the adjacency that follows from their vertices.
 #[derive(Default)]
-struct Complex<'a> {
-    triangles: &'a [[u32; 3]],
+pub(crate) struct Complex<'a> {
+    pub(crate) triangles: &'a [[u32; 3]],
     /// The half-edge against each; [`NONE`] where there is none.
-    halfedges: Vec<[u32; 3]>,
+    pub(crate) halfedges: Vec<[u32; 3]>,
     /// The half-edges without one against them, by their ends.
-    hull: Vec<[u32; 2]>,
-    vertices: usize,
-    edges: usize,
+    pub(crate) hull: Vec<[u32; 2]>,
+    pub(crate) vertices: usize,
+    pub(crate) edges: usize,
 }
 
 impl<'a> Complex<'a> {
     /// Derives the adjacency, and finds the edges that are wrong. Needs vertices that are indices
     /// of points, three different ones per triangle.
-    fn new(triangles: &'a [[u32; 3]]) -> (Self, Findings) {
+    pub(crate) fn new(triangles: &'a [[u32; 3]]) -> (Self, Findings) {
         let mut findings = Findings::default();
         let mut complex = Complex { triangles, halfedges: vec![[NONE; 3]; triangles.len()], ..Complex::default() };
         // (lower vertex, higher vertex, half-edge); the half-edges of an edge become neighbours.
@@ -298,12 +310,12 @@ impl<'a> Complex<'a> {
         (complex, findings)
     }
 
-    fn ends(&self, halfedge: u32) -> [u32; 2] {
+    pub(crate) fn ends(&self, halfedge: u32) -> [u32; 2] {
         let (t, k) = (self.triangles[halfedge as usize / 3], halfedge as usize % 3);
         [t[k], t[(k + 1) % 3]]
     }
 
-    fn check_halfedges(&self, stated: &[[u32; 3]], findings: &mut Findings) {
+    pub(crate) fn check_halfedges(&self, stated: &[[u32; 3]], findings: &mut Findings) {
         if stated.len() != self.triangles.len() {
             let detail = format!("half-edges of {} triangles, not of {}", stated.len(), self.triangles.len());
             findings.add(|| Defect::in_mesh(detail));
@@ -363,7 +375,7 @@ impl<'a> Complex<'a> {
 
     /// Checks the Delaunay property and that of the ties, except across constrained edges. Needs
     /// counter-clockwise triangles.
-    fn check_delaunay(&self, input: &Input<2>, constraints: &[[u32; 2]]) -> (Findings, Findings) {
+    pub(crate) fn check_delaunay(&self, input: &Input<2>, constraints: &[[u32; 2]]) -> (Findings, Findings) {
         let (mut delaunay, mut ties) = (Findings::default(), Findings::default());
         for (t, (&[a, b, c], across)) in self.triangles.iter().zip(&self.halfedges).enumerate() {
             for &e in across {
@@ -389,7 +401,7 @@ impl<'a> Complex<'a> {
     }
 
     /// Checks that the hull is closed, and writes it as a polygon.
-    fn check_hull_closed(&self, polygon: &mut Vec<u32>) -> Findings {
+    pub(crate) fn check_hull_closed(&self, polygon: &mut Vec<u32>) -> Findings {
         let mut findings = Findings::default();
         let mut edges = self.hull.clone();
         edges.sort_unstable();

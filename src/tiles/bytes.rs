@@ -39,6 +39,26 @@ impl Reader<'_> {
         if is_finite { Ok(point) } else { Err(Error::BadMessage { reason: "a coordinate is not finite" }) }
     }
 
+    /// Reads so many words.
+    pub(super) fn words(&mut self, count: u32) -> Result<Vec<u32>, Error> {
+        Ok(self.rows::<1>(count)?.into_flattened())
+    }
+
+    /// Reads so many rows of words.
+    pub(super) fn rows<const M: usize>(&mut self, count: u32) -> Result<Vec<[u32; M]>, Error> {
+        let (rows, rest) = self.0.split_at_checked(4 * M * self.count(count, 4 * M)?).ok_or(TOO_SHORT)?;
+        self.0 = rest;
+        let row = |k: usize| &rows.as_chunks::<4>().0[M * k..][..M];
+        let row = |k: usize| std::array::from_fn(|i| u32::from_le_bytes(row(k)[i]));
+        Ok((0..count as usize).map(row).collect())
+    }
+
+    /// Reads so many points, which must be finite.
+    pub(super) fn points<const D: usize>(&mut self, count: u32) -> Result<Vec<[f64; D]>, Error> {
+        let count = self.count(count, 8 * D)?;
+        (0..count).map(|_| self.point()).collect()
+    }
+
     /// Returns a number of items of so many bytes, if the rest is long enough for them.
     pub(super) fn count(&self, count: u32, size: usize) -> Result<usize, Error> {
         let is_there = (count as usize).checked_mul(size).is_some_and(|bytes| bytes <= self.0.len());

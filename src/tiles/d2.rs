@@ -1,14 +1,25 @@
 //! The 2D parts of tiles.
 
-use super::{dim::Tiled, in_pieces};
+use super::{
+    dim::{Provable, Tiled},
+    in_pieces,
+};
 use crate::{
     d2::{
         Mesh2,
         insert::edge_of,
         triangulation::{Triangulation2, edges_to_mesh, vertices_to_mesh},
+        verify::{self, Complex},
     },
     dimension::Dimension,
+    index::NONE,
     options::Winding,
+    predicates::{Sign, orient2d},
+    verify::{
+        Check,
+        input::{Input, dimension_2d},
+        report::Findings,
+    },
 };
 use rustc_hash::FxHashMap;
 
@@ -78,5 +89,76 @@ impl Tiled<2, 3> for Dimension<2> {
             hull[1..].reverse();
         }
         Mesh2 { triangles, halfedges, hull, ..Mesh2::default() }
+    }
+}
+
+impl Provable<2, 3> for Dimension<2> {
+    fn dimension_of(points: &[[f64; 2]]) -> u8 {
+        dimension_2d(points)
+    }
+
+    /// The edge opposite vertex `k` begins at the next.
+    fn side(t: u32, k: usize) -> [u32; 2] {
+        [3 * t + (k as u32 + 1) % 3; 2]
+    }
+
+    fn orientation([a, b, c]: [[f64; 2]; 3]) -> Sign {
+        orient2d(a, b, c)
+    }
+
+    fn in_sphere([pa, pb, pc]: [[f64; 2]; 3], [a, b, c]: [u32; 3], q: [f64; 2], index: u32) -> [Sign; 2] {
+        verify::incircle_at([pa, pb, pc, q], [a, b, c, index])
+    }
+
+    fn check_simplices(
+        input: &Input<2>,
+        simplices: &[[u32; 3]],
+        neighbors: Option<&[[u32; 3]]>,
+        found: &mut dyn FnMut(Check, Findings),
+    ) -> Vec<[u32; 2]> {
+        let indices = verify::check_indices(simplices, input.points.len());
+        let is_broken = !indices.is_empty();
+        found(Check::Indices, indices);
+        if is_broken {
+            return Vec::new();
+        }
+        let (complex, facets) = Complex::new(simplices);
+        let orientation = verify::check_orientation(&input.points, simplices);
+        let is_oriented = orientation.is_empty();
+        found(Check::Orientation, orientation);
+        found(Check::Facets, facets);
+        if let Some(stated) = neighbors {
+            let mut findings = Findings::default();
+            complex.check_halfedges(stated, &mut findings);
+            found(Check::Neighbors, findings);
+        }
+        if is_oriented {
+            let (delaunay, ties) = complex.check_delaunay(input, &[]);
+            found(Check::Delaunay, delaunay);
+            found(Check::CanonicalTies, ties);
+        }
+        let sides = (0..).zip(&complex.halfedges).flat_map(|(t, across)| (0..3).map(move |k| (t, k, across)));
+        sides.filter(|&(_, k, across)| across[(k + 1) % 3] == NONE).map(|(t, k, _)| [t, k as u32]).collect()
+    }
+
+    /// A hull that turns once is covered once.
+    fn check_overlaps(_: [[f64; 2]; 3], _: &[[f64; 2]], _: &[[u32; 3]]) -> Findings {
+        Findings::default()
+    }
+
+    fn check_hull(
+        _: [[f64; 2]; 3],
+        points: &[[f64; 2]],
+        triangles: &[[u32; 3]],
+        opposite: &[usize],
+    ) -> Vec<(Check, Findings)> {
+        let ends = |(t, k): (&[u32; 3], &usize)| [t[(k + 1) % 3], t[(k + 2) % 3]];
+        let hull = triangles.iter().zip(opposite).map(ends).collect();
+        let complex = Complex { triangles, hull, ..Complex::default() };
+        let mut polygon = Vec::new();
+        vec![
+            (Check::HullClosed, complex.check_hull_closed(&mut polygon)),
+            (Check::HullConvex, verify::check_hull_convex(points, &polygon)),
+        ]
     }
 }

@@ -1,6 +1,12 @@
 //! What the dimensions supply to tiles.
 
-use crate::{cpu::Incremental, options::Winding, slots::Slots};
+use crate::{
+    cpu::Incremental,
+    options::Winding,
+    predicates::Sign,
+    slots::Slots,
+    verify::{Check, input::Input, report::Findings},
+};
 use std::fmt::Debug;
 
 /// What tiles need of a dimension, with `N` vertices per simplex.
@@ -45,4 +51,41 @@ pub trait Tiled<const D: usize, const N: usize>: Incremental<D, Triangulation: S
         hull: Vec<[u32; D]>,
         winding: Winding,
     ) -> Self::Mesh;
+}
+
+/// What the [`Proof`](super::Proof) of tiles needs of a dimension. Vertices of simplices are as in a mesh.
+pub trait Provable<const D: usize, const N: usize>: Tiled<D, N> {
+    /// Returns the affine dimension of points.
+    fn dimension_of(points: &[[f64; D]]) -> u8;
+
+    /// Returns the place of the facet opposite vertex `k` of simplex `t` among the entries of `neighbors`, and the entry
+    /// that stands for this facet elsewhere.
+    fn side(t: u32, k: usize) -> [u32; 2];
+
+    /// Returns the orientation of a simplex.
+    fn orientation(corners: [[f64; D]; N]) -> Sign;
+
+    /// Returns where a point with an index is: the sign of the in-sphere determinant, or of the in-circle determinant, and if
+    /// that vanishes the sign of the tie.
+    fn in_sphere(corners: [[f64; D]; N], indices: [u32; N], q: [f64; D], index: u32) -> [Sign; 2];
+
+    /// Checks all that can be said of the simplices of a piece alone, and what it states of neighbours in it. Returns the
+    /// facets with one simplex: the simplex, and the vertex opposite the facet.
+    fn check_simplices(
+        input: &Input<D>,
+        simplices: &[[u32; N]],
+        neighbors: Option<&[[u32; N]]>,
+        found: &mut dyn FnMut(Check, Findings),
+    ) -> Vec<[u32; 2]>;
+
+    /// Checks that none of these simplices contains a point inside another one, which has these corners.
+    fn check_overlaps(inside: [[f64; D]; N], points: &[[f64; D]], simplices: &[[u32; N]]) -> Findings;
+
+    /// Checks the hull, whose facets are opposite these vertices of simplices. A simplex has the corners `inside`.
+    fn check_hull(
+        inside: [[f64; D]; N],
+        points: &[[f64; D]],
+        simplices: &[[u32; N]],
+        opposite: &[usize],
+    ) -> Vec<(Check, Findings)>;
 }

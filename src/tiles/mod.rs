@@ -15,14 +15,19 @@ mod d3;
 mod dim;
 mod message;
 mod part;
+mod piece;
 mod plan;
+mod proof;
+mod state;
 mod survey;
 mod tile;
 
-pub use dim::Tiled;
+pub use dim::{Provable, Tiled};
 pub use message::Message;
-pub use part::{BorderFacet, Part, join, links};
+pub use part::{BorderFacet, Part, Seam, join, links};
+pub use piece::{Link, Piece, Rim};
 pub use plan::Plan;
+pub use proof::Proof;
 pub use survey::{Indexed, Survey};
 pub use tile::Tile;
 
@@ -94,7 +99,7 @@ where
     }
     let mut stats = Stats::new(Backend::Cpu);
     all.iter().for_each(|tile| stats.exact = stats.exact + tile.stats().exact);
-    let parts = all.into_iter().map(Tile::finish).collect();
+    let parts = all.into_iter().map(Tile::finish).collect::<Result<_, _>>()?;
     let mut mesh = part::join_with::<D, N>(parts, points.len(), options)?;
     *mesh.stats_mut() = stats;
     Ok((mesh, traffic))

@@ -64,11 +64,13 @@ impl<const N: usize> Part<N> {
 const GHOST: u32 = NONE - 1;
 
 /// Adds the finite simplices of a triangulation of which the vertex with the lowest index is one of the tile's own,
-/// and the facets of the hull likewise. Vertex *v* becomes `names[v]`. The arrays are those of the triangulation.
+/// and the facets of the hull likewise. Vertex *v* has the index `indices[v]`, and `names` turns it to what simplices and
+/// hull are to have. The arrays are those of the triangulation.
 pub(super) fn fill<const D: usize, const N: usize>(
     part: &mut Part<N>,
     triangulation: <Dimension<D> as Incremental<D>>::Triangulation,
-    names: &[u32],
+    indices: &[u32],
+    names: impl Fn(u32) -> u32,
     of: Vertices<'_>,
     winding: Winding,
 ) where
@@ -76,10 +78,10 @@ pub(super) fn fill<const D: usize, const N: usize>(
     Euclidean: Geometry<D, N>,
 {
     let infinite = of.infinite();
-    let name = |v: u32| names[v as usize];
+    let index = |v: u32| indices[v as usize];
     let is_ours = |simplex: &[u32; N]| {
         let finite = simplex.iter().copied().filter(|&v| v != infinite);
-        !simplex.iter().any(|&v| of.is_foreign(v)) || finite.min_by_key(|&v| name(v)).is_some_and(|v| v < of.own)
+        !simplex.iter().any(|&v| of.is_foreign(v)) || finite.min_by_key(|&v| index(v)).is_some_and(|v| v < of.own)
     };
     let slots = Dimension::<D>::slots(&triangulation);
     let mut number = vec![NONE; slots as usize];
@@ -92,7 +94,7 @@ pub(super) fn fill<const D: usize, const N: usize>(
                     number[t as usize] = GHOST;
                     if is_ours(&simplex) {
                         let mut hull = [NONE; N];
-                        hull.iter_mut().zip(facet).for_each(|(to, v)| *to = name(v));
+                        hull.iter_mut().zip(facet).for_each(|(to, v)| *to = names(v));
                         part.hull.push(hull);
                     }
                 }
@@ -126,12 +128,12 @@ pub(super) fn fill<const D: usize, const N: usize>(
                     continue;
                 }
                 let mut vertices = [NONE; 3];
-                vertices.iter_mut().zip(facet).for_each(|(to, v)| *to = name(v));
+                vertices.iter_mut().zip(facet).for_each(|(to, v)| *to = index(v));
                 vertices.sort_unstable();
                 let [place, entry] = Dimension::<D>::place(this, k, winding);
                 part.borders.push(BorderFacet { vertices, place, entry });
             }
-            simplices[this as usize] = Dimension::<D>::to_mesh(simplex.map(name), winding);
+            simplices[this as usize] = Dimension::<D>::to_mesh(simplex.map(&names), winding);
             neighbors[this as usize] = Dimension::<D>::entries(across, winding);
         }
     });
@@ -222,20 +224,72 @@ pub fn links<const D: usize>(
     borders: impl IntoIterator<Item = BorderFacet>,
     hull: &[[u32; D]],
 ) -> Result<Vec<[u32; 2]>, Error> {
-    let mut open: FxHashMap<[u32; 3], [u32; 2]> = FxHashMap::default();
+    let mut seam = Seam::default();
     let mut links = Vec::new();
     for BorderFacet { vertices, place, entry } in borders {
-        match open.remove(&vertices) {
-            None => _ = open.insert(vertices, [place, entry]),
-            Some([other, beyond]) => links.extend([[place, beyond], [other, entry]]),
+        if let Some([other, beyond]) = seam.add(vertices, [place, entry]) {
+            links.extend([[place, beyond], [other, entry]]);
         }
     }
-    // What leads to no other part is on the hull.
-    for facet in hull {
-        let mut vertices = [NONE; 3];
-        vertices.iter_mut().zip(facet).for_each(|(to, &v)| *to = v);
-        vertices.sort_unstable();
-        open.remove(&vertices);
+    hull.iter().for_each(|&facet| seam.add_hull(facet));
+    if seam.is_closed() { Ok(links) } else { Err(Error::BrokenMesh { reason: "a part of it is missing" }) }
+}
+
+/// The facets of which one side is known so far. Parts can be added one after the other, in any order.
+///
+/// # Examples
+///
+/// ```
+/// use gdel::tiles::Seam;
+///
+/// let mut seam = Seam::default();
+/// assert_eq!(seam.add([1, 2, 3], "one"), None);
+/// assert_eq!(seam.add([1, 2, 4], "another"), None);
+/// assert_eq!(seam.add([1, 2, 3], "the other side"), Some("one"));
+/// assert!(!seam.is_closed());
+/// seam.add_hull([4, 2, 1]);
+/// assert!(seam.is_closed());
+/// ```
+#[derive(Debug, Clone)]
+pub struct Seam<T>(FxHashMap<[u32; 3], Option<T>>);
+
+impl<T> Default for Seam<T> {
+    fn default() -> Self {
+        Seam(FxHashMap::default())
     }
-    if open.is_empty() { Ok(links) } else { Err(Error::BrokenMesh { reason: "a part of it is missing" }) }
+}
+
+impl<T> Seam<T> {
+    /// Adds one side of a facet whose vertices are those of a [`BorderFacet`]. Returns the other side if it was added
+    /// before.
+    pub fn add(&mut self, vertices: [u32; 3], side: T) -> Option<T> {
+        match self.0.remove(&vertices) {
+            None => {
+                self.0.insert(vertices, Some(side));
+                None
+            }
+            Some(other) => other,
+        }
+    }
+
+    /// Adds a facet of the hull, in any order of its vertices: it has one side.
+    pub fn add_hull<const D: usize>(&mut self, facet: [u32; D]) {
+        let mut vertices = [NONE; 3];
+        vertices.iter_mut().zip(facet).for_each(|(to, v)| *to = v);
+        vertices.sort_unstable();
+        // That of a facet whose simplex knows that nothing is beyond it stays.
+        if self.0.remove(&vertices).is_none() {
+            self.0.insert(vertices, None);
+        }
+    }
+
+    /// Returns the sides that have not found the other one.
+    pub fn into_open(self) -> impl Iterator<Item = T> {
+        self.0.into_values().flatten()
+    }
+
+    /// Returns whether every side has found the other one.
+    pub fn is_closed(&self) -> bool {
+        self.0.values().all(Option::is_none)
+    }
 }

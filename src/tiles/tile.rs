@@ -5,6 +5,7 @@ use super::{
     dim::Tiled,
     message::{Content, Known, Message},
     part::{self, Part},
+    piece::Piece,
     plan::Plan,
 };
 use crate::{
@@ -25,7 +26,7 @@ use crate::{
     stats::{Phase, Stats},
 };
 use rustc_hash::{FxHashMap, FxHashSet};
-use std::sync::Arc;
+use std::{iter, sync::Arc};
 
 /// One of the tiles that points are split into, which triangulates its own points and those of others that it gets to
 /// know.
@@ -57,7 +58,7 @@ use std::sync::Arc;
 ///     }
 ///     received = sent;
 /// }
-/// let parts = tiles.into_iter().map(Tile::finish).collect();
+/// let parts = tiles.into_iter().map(Tile::finish).collect::<Result<_, _>>()?;
 /// let mesh = join::<2, 3>(parts, points.len())?;
 /// assert!(gdel::verify2d(&points, &mesh)?.passed());
 /// # Ok::<(), gdel::Error>(())
@@ -67,48 +68,50 @@ pub struct Tile<const D: usize, const N: usize>
 where
     Dimension<D>: Tiled<D, N>,
 {
-    plan: Arc<Plan<D>>,
-    number: u32,
-    options: Options,
+    pub(super) plan: Arc<Plan<D>>,
+    pub(super) number: u32,
+    pub(super) options: Options,
     /// The steps so far.
-    steps: u32,
-    cloud: Cloud<D>,
+    pub(super) steps: u32,
+    pub(super) cloud: Cloud<D>,
     /// For each of its own points the one that it duplicates, or [`NONE`].
-    duplicate_of: Vec<u32>,
-    triangulation: Option<<Dimension<D> as Incremental<D>>::Triangulation>,
+    pub(super) duplicate_of: Vec<u32>,
+    pub(super) triangulation: Option<Triangulation<D>>,
     /// How the tile was computed.
-    stats: Stats,
+    pub(super) stats: Stats,
     /// For each tile, the box of its own points.
-    bounds: Vec<Option<[[f64; D]; 2]>>,
+    pub(super) bounds: Vec<Option<[[f64; D]; 2]>>,
     /// For each tile, the vertices that it knows, without common ones of other tiles.
-    sent: Vec<FxHashSet<u32>>,
+    pub(super) sent: Vec<FxHashSet<u32>>,
 }
+
+pub(super) type Triangulation<const D: usize> = <Dimension<D> as Incremental<D>>::Triangulation;
 
 /// The points that a tile knows, which are its vertices.
 #[derive(Debug)]
-struct Cloud<const D: usize> {
+pub(super) struct Cloud<const D: usize> {
     /// First the tile's own points, in the order of their indices, then the
     /// common ones of other tiles, then others.
-    points: Vec<[f64; D]>,
+    pub(super) points: Vec<[f64; D]>,
     /// The index of each in the whole input.
-    indices: Vec<u32>,
+    pub(super) indices: Vec<u32>,
     /// The number of the tile's own points.
-    own: u32,
+    pub(super) own: u32,
     /// The number of common points of other tiles.
-    common: u32,
+    pub(super) common: u32,
     /// The tile that each point of other tiles belongs to.
-    owners: Vec<u32>,
+    pub(super) owners: Vec<u32>,
     /// The indices of the points of other tiles.
-    known: FxHashSet<u32>,
+    pub(super) known: FxHashSet<u32>,
 }
 
 impl<const D: usize> Cloud<D> {
     /// Adds a point of another tile.
-    fn learn(&mut self, p: Known<D>) {
-        if self.known.insert(p.index) {
-            self.points.push(p.at);
-            self.indices.push(p.index);
-            self.owners.push(p.owner);
+    pub(super) fn learn(&mut self, index: u32, owner: u32, at: [f64; D]) {
+        if self.known.insert(index) {
+            self.points.push(at);
+            self.indices.push(index);
+            self.owners.push(owner);
         }
     }
 }
@@ -213,14 +216,55 @@ where
 
     /// Returns the simplices of the whole triangulation of which the vertex with the lowest index is one of the tile's
     /// own.
-    pub fn finish(mut self) -> Part<N> {
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`step`](Self::step) if the tile was [suspended](Self::suspend).
+    pub fn finish(mut self) -> Result<Part<N>, Error> {
+        let (mut part, triangulation) = self.end()?;
+        if let Some(triangulation) = triangulation {
+            let indices = &self.cloud.indices;
+            let name = |v: u32| indices[v as usize];
+            part::fill::<D, N>(&mut part, triangulation, indices, name, self.vertices(), self.options.winding);
+        }
+        Ok(part)
+    }
+
+    /// Returns the same simplices as [`finish`](Self::finish), with the points that they need.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`finish`](Self::finish).
+    pub fn into_piece(mut self) -> Result<Piece<D, N>, Error> {
+        let (mut part, triangulation) = self.end()?;
+        if let Some(triangulation) = triangulation {
+            let (indices, winding) = (&self.cloud.indices, self.options.winding);
+            part::fill::<D, N>(&mut part, triangulation, indices, |v| v, self.vertices(), winding);
+        }
+        let Cloud { points, indices, own, owners, .. } = self.cloud;
+        let owners: Vec<u32> = iter::repeat_n(self.number, own as usize).chain(owners).collect();
+        Ok(Piece::new(self.number, &points, &indices, &owners, part))
+    }
+
+    /// Ends the steps: returns the part without simplices, and the triangulation if there is one.
+    fn end(&mut self) -> Result<(Part<N>, Option<Triangulation<D>>), Error> {
+        let threads = self.options.threads;
+        parallel::with_threads(threads, |threads| self.awake(threads))?;
         let duplicates = self.cloud.indices.iter().copied().zip(self.duplicate_of.iter().copied());
         let duplicates = duplicates.filter(|&(_, first)| first != NONE).map(Into::into).collect();
-        let mut part = Part { duplicates, ..Part::new(self.plan.dimension()) };
-        if let Some(triangulation) = self.triangulation.take() {
-            part::fill::<D, N>(&mut part, triangulation, &self.cloud.indices, self.vertices(), self.options.winding);
-        }
-        part
+        Ok((Part { duplicates, ..Part::new(self.plan.dimension()) }, self.triangulation.take()))
+    }
+
+    /// Frees the triangulation, which takes ten times the memory of the points. The next step in which points arrive,
+    /// or the end, makes it again.
+    pub fn suspend(&mut self) {
+        self.triangulation = None;
+    }
+
+    /// Triangulates all points that the tile knows if it has begun and has no triangulation.
+    fn awake(&mut self, threads: Threads) -> Result<(), Error> {
+        let is_begun = self.steps > 1 && self.cloud.own > 0;
+        if is_begun && self.triangulation.is_none() { self.triangulate(threads) } else { Ok(()) }
     }
 
     /// Returns how the tile was computed so far.
@@ -273,20 +317,29 @@ where
             let owner = plan.tile_of(p.at);
             let index = first_of.get(&p.index).copied().unwrap_or(p.index);
             if owner != self.number {
-                self.cloud.learn(Known { index, owner, at: p.at });
+                self.cloud.learn(index, owner, p.at);
             } else if let Ok(v) = self.cloud.indices[..self.cloud.own as usize].binary_search(&index) {
                 self.sent.iter_mut().for_each(|sent| _ = sent.insert(v as u32));
             }
         }
         self.cloud.common = self.cloud.owners.len() as u32;
+        self.triangulate(threads)
+    }
+
+    /// Triangulates all points that the tile knows.
+    fn triangulate(&mut self, threads: Threads) -> Result<(), Error> {
         self.check_count()?;
         let points = Points::F64(&self.cloud.points);
         let lattice = Lattice::fit_by(threads, points)?;
         let Distinct { mut order, rounds, duplicate_of } =
             insertion_order(threads, points, &lattice, Dimension::<D>::CURVE, Order::Brio);
         let index = |i: u32| if i == NONE { NONE } else { self.cloud.indices[i as usize] };
-        self.duplicate_of = duplicate_of[..self.cloud.own as usize].iter().map(|&i| index(i)).collect();
-        if usize::from(plan.dimension()) < D {
+        let (own, foreign) = duplicate_of.split_at(self.cloud.own as usize);
+        if foreign.iter().any(|&i| i != NONE) {
+            return Err(EQUAL);
+        }
+        self.duplicate_of = own.iter().map(|&i| index(i)).collect();
+        if usize::from(self.plan.dimension()) < D {
             return Ok(());
         }
         Dimension::<D>::spanning_first(points, &mut order);
@@ -315,20 +368,28 @@ where
                     return Err(Error::BadMessage { reason: "it has a point of another tile than it says" });
                 }
                 received_from.push((from, p.index));
-                self.cloud.learn(p);
+                self.cloud.learn(p.index, p.owner, p.at);
             }
         }
-        self.check_count()?;
-        let Some(triangulation) = &mut self.triangulation else { return Ok(()) };
         if self.cloud.points.len() == before {
             return Ok(());
         }
+        // Who has sent a point knows it.
+        let names = (before as u32..).zip(&self.cloud.indices[before..]);
+        let vertex_of: FxHashMap<u32, u32> = names.map(|(v, &index)| (index, v)).collect();
+        for (from, index) in received_from {
+            if let Some(&v) = vertex_of.get(&index) {
+                self.sent[from as usize].insert(v);
+            }
+        }
+        self.check_count()?;
+        let Some(triangulation) = &mut self.triangulation else { return self.awake(threads) };
         let points = Points::F64(&self.cloud.points);
         let lattice = Lattice::fit_by(threads, points)?;
         let new = points.range(before..points.len());
         let Distinct { mut order, .. } = insertion_order(threads, new, &lattice, Dimension::<D>::CURVE, Order::Brio);
         if order.len() < new.len() {
-            return Err(Error::BadMessage { reason: "points with different indices are equal" });
+            return Err(EQUAL);
         }
         order.iter_mut().for_each(|i| *i += before as u32);
         Dimension::<D>::move_infinite(triangulation, points.len() as u32);
@@ -343,22 +404,14 @@ where
         let options = &self.options;
         insert_points(triangulation, &context, order, start, |_| options.report(Phase::Insert, 1.0))?;
         self.stats.exact = self.stats.exact + context.exact_counts();
-        // Who has sent a point knows it.
-        let names = (before as u32..).zip(&self.cloud.indices[before..]);
-        let vertex_of: FxHashMap<u32, u32> = names.map(|(v, &index)| (index, v)).collect();
-        for (from, index) in received_from {
-            if let Some(&v) = vertex_of.get(&index) {
-                self.sent[from as usize].insert(v);
-            }
-        }
         Ok(())
     }
 
     /// Returns what other tiles have to know of the simplices that have a vertex from `first` on; at the beginning also
     /// what they will probably need.
     fn outgoing(&mut self, first: u32, is_beginning: bool) -> Vec<(u32, Message<D>)> {
-        let mut sent = std::mem::take(&mut self.sent);
         let Some(triangulation) = &self.triangulation else { return Vec::new() };
+        let mut sent = std::mem::take(&mut self.sent);
         let border = Border::new(triangulation, self.vertices(), first);
         let mut outgoing = vec![Vec::new(); sent.len()];
         // The tile that each vertex was last sent to: most simplices around a vertex have the same neighbours.
@@ -383,4 +436,5 @@ where
 /// The coordinates of all vertices are prepared only where at least one of so many is inserted.
 const FEW: usize = 100;
 
+const EQUAL: Error = Error::BadMessage { reason: "points with different indices are equal" };
 const UNEXPECTED: Error = Error::BadMessage { reason: "it is of another step" };

@@ -11,14 +11,14 @@ use crate::{
 use std::cmp::Ordering;
 
 /// The points with what follows from them.
-pub(crate) struct Input<const D: usize> {
+pub struct Input<const D: usize> {
     /// The exact coordinates, duplicates included.
     pub(crate) points: Vec<[f64; D]>,
     /// One per point, or none.
     pub(crate) weights: Vec<f64>,
     /// For each point the lowest index with the same coordinates, of the heaviest ones; [`NONE`] for
     /// points that are unused.
-    pub(super) representative: Vec<u32>,
+    pub(crate) representative: Vec<u32>,
     /// The number of points without duplicates and unused ones.
     pub(crate) distinct: usize,
     /// The affine dimension, 0 to D.

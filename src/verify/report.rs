@@ -226,7 +226,7 @@ pub enum Outcome {
 
 /// The defects of one check: the first of them, and their number.
 #[derive(Debug, Default)]
-pub(crate) struct Findings {
+pub struct Findings {
     first: Option<Defect>,
     count: usize,
 }
@@ -235,6 +235,19 @@ impl Findings {
     pub(crate) fn add(&mut self, defect: impl FnOnce() -> Defect) {
         self.first.get_or_insert_with(defect);
         self.count += 1;
+    }
+
+    /// Returns whether there are none.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.count == 0
+    }
+
+    /// Adds where the defects are.
+    pub(crate) fn within(mut self, place: &str) -> Self {
+        if let Some(defect) = &mut self.first {
+            defect.detail = format!("{} ({place})", defect.detail);
+        }
+        self
     }
 }
 

@@ -12,7 +12,8 @@ use gdel::{
         geometry::{Euclidean, Geometry},
         mesh::canonical,
     },
-    tiles::{self, Message, Part, Plan, Survey, Tile, Tiled, join},
+    tiles::{self, Link, Message, Part, Piece, Plan, Proof, Provable, Seam, Survey, Tile, Tiled, join},
+    verify::{Check, Report},
     verify2d, verify3d,
 };
 use rand::{RngExt, SeedableRng, seq::SliceRandom};
@@ -104,8 +105,18 @@ fn degenerate_inputs_agree() {
     }
 }
 
-/// Takes all steps of tiles, in any order, with messages as bytes that arrive in any order.
+/// Returns the parts of tiles.
 fn parts_by_bytes<const D: usize, const N: usize>(points: &[[f64; D]], tiles: u32, seed: u64) -> Vec<Part<N>>
+where
+    Dimension<D>: Tiled<D, N>,
+    Euclidean: Geometry<D, N>,
+    for<'a> Points<'a, D>: From<&'a [[f64; D]]>,
+{
+    tiles_by_bytes(points, tiles, seed).into_iter().map(|tile| tile.finish().unwrap()).collect()
+}
+
+/// Takes all steps of tiles, in any order, with messages as bytes that arrive in any order.
+fn tiles_by_bytes<const D: usize, const N: usize>(points: &[[f64; D]], tiles: u32, seed: u64) -> Vec<Tile<D, N>>
 where
     Dimension<D>: Tiled<D, N>,
     Euclidean: Geometry<D, N>,
@@ -135,13 +146,17 @@ where
             for (to, message) in all[from].step(messages.collect()).unwrap() {
                 sent[to as usize].push((from as u32, message.to_bytes()));
             }
+            // Tiles may rest anywhere between steps.
+            if random.random_bool(0.3) {
+                all[from] = Tile::from_bytes(plan(), &all[from].to_bytes()).unwrap();
+            }
         }
         if steps > 1 && sent.iter().all(Vec::is_empty) {
             break;
         }
         received = sent;
     }
-    all.into_iter().map(Tile::finish).collect()
+    all
 }
 
 #[test]
@@ -160,6 +175,139 @@ fn the_order_of_messages_does_not_matter() {
     }
 }
 
+/// Returns the pieces of tiles with their links.
+fn pieces<const D: usize, const N: usize>(points: &[[f64; D]], tiles: u32) -> Vec<(Piece<D, N>, Vec<Link>)>
+where
+    Dimension<D>: Tiled<D, N>,
+    Euclidean: Geometry<D, N>,
+    for<'a> Points<'a, D>: From<&'a [[f64; D]]>,
+{
+    let pieces = tiles_by_bytes(points, tiles, 0).into_iter().map(|tile| (tile.into_piece().unwrap(), Vec::new()));
+    let mut pieces: Vec<(Piece<D, N>, Vec<Link>)> = pieces.collect();
+    let mut seam = Seam::default();
+    for tile in 0..pieces.len() {
+        for (from, link) in seam.add_rim(tile as u32, &pieces[tile].0.rim()) {
+            pieces[from as usize].1.push(link);
+        }
+    }
+    assert!(seam.is_closed());
+    pieces
+}
+
+fn proof<const D: usize, const N: usize>(pieces: &[(Piece<D, N>, Vec<Link>)]) -> Report
+where
+    Dimension<D>: Provable<D, N>,
+    Euclidean: Geometry<D, N>,
+{
+    let mut proof = Proof::default();
+    for (tile, (piece, links)) in (0..).zip(pieces) {
+        proof.add(tile, piece, Some(links)).unwrap();
+    }
+    proof.finish()
+}
+
+#[test]
+fn pieces_are_proven_one_by_one() {
+    for (name, points) in [
+        ("uniform", generate3d(Distribution3::Uniform, 2000, 1)),
+        ("grid", clouds::shuffled(&clouds::grid(10), 1)),
+        ("sphere", generate3d(Distribution3::Sphere, 500, 1)),
+        ("duplicates", clouds::thirty_percent_duplicates(2000)),
+        ("points in a plane", clouds::grid(6).iter().map(|&[x, y, _]| [x, y, 1.0]).collect()),
+        ("no points", Vec::new()),
+    ] {
+        for tiles in [1, 2, 7] {
+            let pieces = pieces::<3, 4>(&points, tiles);
+            let report = proof(&pieces);
+            assert!(report.passed(), "{name}, {tiles} tiles:\n{report}");
+            assert_eq!(report.counts.points, points.len());
+            let mut found = vec![false; points.len()];
+            for (piece, _) in &pieces {
+                for (&i, p) in piece.indices.iter().zip(&piece.points) {
+                    assert_eq!(points[i as usize], *p);
+                    found[i as usize] = true;
+                }
+            }
+            assert!(found.iter().all(|&found| found));
+        }
+    }
+    for distribution in Distribution2::ALL {
+        let report = proof(&pieces::<2, 3>(&generate2d(distribution, 1000, 1), 5));
+        assert!(report.passed(), "{}:\n{report}", distribution.name());
+    }
+    for case in degenerate::cases(100) {
+        let mut random = Pcg64Mcg::seed_from_u64(case);
+        let report = proof(&pieces::<3, 4>(&degenerate::points(&mut random, 40), 3));
+        assert!(report.passed(), "case {case}:\n{report}");
+        let report = proof(&pieces::<2, 3>(&degenerate::points(&mut random, 40), 3));
+        assert!(report.passed(), "case {case}:\n{report}");
+    }
+}
+
+#[test]
+fn a_proof_finds_whatever_is_wrong_with_pieces() {
+    type Pieces = Vec<(Piece<3, 4>, Vec<Link>)>;
+    let right = pieces::<3, 4>(&generate3d(Distribution3::Uniform, 600, 1), 3);
+    let check = |name: &str, expected: &[Check], damage: &dyn Fn(&mut Pieces)| {
+        let mut pieces = right.clone();
+        damage(&mut pieces);
+        let report = proof(&pieces);
+        let failed: Vec<Check> = report.failures().map(|(check, ..)| check).collect();
+        assert!(expected.iter().all(|check| failed.contains(check)) && !failed.is_empty(), "{name}:\n{report}");
+    };
+    let is_foreign = |piece: &Piece<3, 4>, v: usize, tile: u32| piece.owners[v] != tile;
+    check("a missing piece", &[Check::HullClosed], &|pieces| _ = pieces.pop());
+    check("a missing simplex", &[Check::Neighbors], &|pieces| {
+        pieces[1].0.part.simplices.pop();
+        pieces[1].0.part.neighbors.pop();
+    });
+    check("a moved point", &[Check::Vertices], &|pieces| {
+        let piece = &mut pieces[2].0;
+        let v = (0..piece.points.len()).find(|&v| is_foreign(piece, v, 2)).unwrap();
+        piece.points[v][0] += 1e-9;
+    });
+    check("another index", &[Check::Vertices], &|pieces| {
+        let last = pieces[0].0.indices.last_mut().unwrap();
+        *last += 1000;
+    });
+    check("no links", &[Check::Neighbors], &|pieces| pieces[0].1.clear());
+    check("a wrong link", &[Check::Neighbors], &|pieces| pieces[0].1[0].entry ^= 1);
+    check("a link too many", &[Check::Neighbors], &|pieces| {
+        let link = Link { place: u32::MAX, tile: 0, entry: 0 };
+        pieces[1].1.push(link);
+    });
+    check("a duplicate that is none", &[Check::Duplicates], &|pieces| {
+        let i = pieces[0].0.indices[1];
+        pieces[0].0.part.duplicates.push([i, 0]);
+    });
+    check("a point in two tiles", &[Check::Vertices], &|pieces| {
+        let piece = &mut pieces[1].0;
+        let v = (0..piece.points.len()).find(|&v| is_foreign(piece, v, 1)).unwrap();
+        piece.owners[v] = 1;
+    });
+    check("an inverted simplex", &[Check::Orientation], &|pieces| pieces[0].0.part.simplices[5].swap(0, 1));
+    check("a vertex out of range", &[Check::Indices], &|pieces| pieces[0].0.part.simplices[5][2] = u32::MAX);
+    check("points in the wrong order", &[Check::Indices], &|pieces| pieces[0].0.indices.swap(0, 1));
+    // Pieces of another triangulation of the same points: ties are broken the other way.
+    let grid = clouds::shuffled(&clouds::grid(5), 1);
+    let mut other = pieces::<3, 4>(&grid.iter().rev().copied().collect::<Vec<_>>(), 2);
+    assert!(proof(&other).passed());
+    for (piece, _) in &mut other {
+        piece.indices.iter_mut().for_each(|i| *i = grid.len() as u32 - 1 - *i);
+        for array in [&mut piece.indices, &mut piece.owners] {
+            array.reverse();
+        }
+        piece.points.reverse();
+        let last = piece.points.len() as u32 - 1;
+        piece.part.simplices.as_flattened_mut().iter_mut().for_each(|v| *v = last - *v);
+    }
+    let report = proof(&other);
+    assert!(report.failures().any(|(check, ..)| check == Check::CanonicalTies), "{report}");
+    let mut lengths = right[0].clone();
+    lengths.0.owners.pop();
+    assert!(matches!(Proof::default().add(0, &lengths.0, None), Err(Error::ValueCount { .. })));
+}
+
 #[test]
 fn no_simplex_is_in_two_parts_and_a_missing_part_is_noticed() {
     let points = generate3d(Distribution3::Uniform, 1000, 1);
@@ -173,6 +321,20 @@ fn no_simplex_is_in_two_parts_and_a_missing_part_is_noticed() {
     assert!(matches!(join::<3, 4>(parts_by_bytes(&points, 2, 0), 10), Err(Error::BrokenMesh { .. })));
 }
 
+/// Returns the first tile of a plan after two steps, as bytes.
+fn tile_after_two_steps(plan: &Plan<3>, points: &[[f64; 3]]) -> Vec<u8> {
+    let parts = (0..).zip(plan.split(points, 0));
+    let mut tiles: Vec<Tile<3, 4>> =
+        parts.map(|(number, (own, indices))| Tile::new(plan.clone(), number, own, indices).unwrap()).collect();
+    let mut hellos = Vec::new();
+    for (from, tile) in (0..).zip(&mut tiles) {
+        let sent = tile.step(Vec::new()).unwrap();
+        hellos.extend(sent.into_iter().filter(|&(to, _)| to == 0).map(|(_, message)| (from, message)));
+    }
+    tiles[0].step(hellos).unwrap();
+    tiles[0].to_bytes()
+}
+
 #[test]
 fn broken_bytes_are_errors() {
     let points = generate3d(Distribution3::Uniform, 100, 1);
@@ -184,10 +346,13 @@ fn broken_bytes_are_errors() {
     assert!(Plan::<3>::from_bytes(&many).is_err(), "so many tiles are not in it");
     assert_eq!(Plan::new(Survey::<3>::new(&points, 0, 10).unwrap(), u32::MAX).tiles(), 1 << 16);
     let mut random = Pcg64Mcg::seed_from_u64(1);
-    for (bytes, is_plan) in [(plan.to_bytes(), true), (hello.to_bytes(), false)] {
-        let is_read = |bytes: &[u8]| match is_plan {
-            true => Plan::<3>::from_bytes(bytes).is_ok(),
-            false => Message::<3>::from_bytes(bytes).is_ok(),
+    let resting = tile_after_two_steps(&plan, &points);
+    for (bytes, kind) in [(plan.to_bytes(), 0), (hello.to_bytes(), 1), (resting, 2)] {
+        let is_plan = kind == 0;
+        let is_read = |bytes: &[u8]| match kind {
+            0 => Plan::<3>::from_bytes(bytes).is_ok(),
+            1 => Message::<3>::from_bytes(bytes).is_ok(),
+            _ => Tile::<3, 4>::from_bytes(plan.clone(), bytes).is_ok(),
         };
         assert!(is_read(&bytes));
         for length in 0..bytes.len() {
@@ -205,6 +370,7 @@ fn broken_bytes_are_errors() {
             is_read(&broken);
         }
         assert!(Plan::<2>::from_bytes(&bytes).is_err() && Message::<2>::from_bytes(&bytes).is_err());
+        assert!(kind == 2 || Tile::<3, 4>::from_bytes(plan.clone(), &bytes).is_err());
     }
 }
 

@@ -12,7 +12,7 @@ const dist = fileURLToPath(new URL('../dist/', import.meta.url));
 
 const here = site();
 
-test('the first view takes less than 527 kB', async () => {
+test('the first view takes less than 530 kB', async () => {
   const page = await open(here.browser, here.url);
   const counted = [...page.files].filter((path) => !/bunny|viewer|three/.test(path));
   const kilobytes = (path) =>
@@ -23,5 +23,6 @@ test('the first view takes less than 527 kB', async () => {
     sum += kilobytes(path);
   }
   console.log(`${sum.toFixed(1).padStart(8)} kB gzipped, without samples and three.js`);
-  assert.ok(sum < 527, `${sum} kB`);
+  // Builds in different folders differ by up to 1 kB.
+  assert.ok(sum < 530, `${sum} kB`);
 });

@@ -41,7 +41,7 @@ pub(crate) struct Complex<'a> {
     pub(crate) vertices: usize,
     pub(crate) edges: usize,
     pub(crate) facets: usize,
-    bad_facets: Findings,
+    pub(crate) bad_facets: Findings,
 }
 
 pub(crate) fn check_indices(tetrahedra: &[[u32; 4]], points: usize) -> Findings {

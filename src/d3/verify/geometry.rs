@@ -45,16 +45,31 @@ pub(crate) fn check_orientation(points: &[[f64; 3]], tetrahedra: &[[u32; 4]]) ->
 /// Returns the sign of the in-sphere determinant of the last of five points, or that of the lifted points
 /// with weights; then, if it vanishes, that of the tie.
 pub(crate) fn insphere_of(input: &Input<3>, five: [u32; 5]) -> [Sign; 2] {
-    let [pa, pb, pc, pd, pe] = at(&input.points, five);
-    let sign = if input.weights.is_empty() {
-        insphere(pa, pb, pc, pd, pe)
-    } else {
-        power_sign([pa, pb, pc, pd, pe], five.map(|v| input.weights[v as usize]))
-    };
-    match sign {
-        0 => [0, break_tie(five, |left_out| orientation(&input.points, without(five, left_out)))],
+    let corners = at(&input.points, five);
+    if input.weights.is_empty() {
+        return insphere_at(corners, five);
+    }
+    match power_sign(corners, five.map(|v| input.weights[v as usize])) {
+        0 => [0, tie(corners, five)],
         sign => [sign, 0],
     }
+}
+
+/// Returns the sign of the in-sphere determinant of the last of five points with these indices; then, if it vanishes,
+/// that of the tie.
+pub(crate) fn insphere_at(five: [[f64; 3]; 5], indices: [u32; 5]) -> [Sign; 2] {
+    let [a, b, c, d, e] = five;
+    match insphere(a, b, c, d, e) {
+        0 => [0, tie(five, indices)],
+        sign => [sign, 0],
+    }
+}
+
+fn tie(five: [[f64; 3]; 5], indices: [u32; 5]) -> Sign {
+    break_tie(indices, |left_out| {
+        let [a, b, c, d] = without(five, left_out);
+        orient3d(a, b, c, d)
+    })
 }
 
 /// Checks the Delaunay property and that of the ties. Needs positive orientation.
@@ -105,33 +120,46 @@ pub(crate) fn check_hull_convex(points: &[[f64; 3]], complex: &Complex<'_>, ridg
 
 /// Checks that the tetrahedra cover the hull's inside once. Needs positive orientation.
 pub(crate) fn check_covering(points: &[[f64; 3]], complex: &Complex<'_>) -> Findings {
+    let Some(&first) = complex.tetrahedra.first() else { return Findings::default() };
+    let probe = at(points, first);
+    let overlaps = check_overlaps(probe, points, &complex.tetrahedra[1..]);
+    [check_hull_turned(probe, points, complex), overlaps].into_iter().collect()
+}
+
+/// Returns whether a point inside a tetrahedron is on the inner side of a triangle.
+///
+/// The point a + ε(b − a) + ε²(c − a) + ε³(d − a) with ε infinitesimal is inside the tetrahedron and on no plane through
+/// three points: the first of a, b, c, d that is not on the plane decides its side.
+fn is_within(inside: [[f64; 3]; 4], [u, v, w]: [[f64; 3]; 3]) -> bool {
+    inside.into_iter().map(|p| orient3d(u, v, w, p)).find(|&sign| sign != 0) == Some(-1)
+}
+
+/// Checks that all hull triangles are seen from a point inside a tetrahedron.
+pub(crate) fn check_hull_turned(inside: [[f64; 3]; 4], points: &[[f64; 3]], complex: &Complex<'_>) -> Findings {
     let mut findings = Findings::default();
-    let Some(&[a, b, c, d]) = complex.tetrahedra.first() else { return findings };
-    // The point a + ε(b − a) + ε²(c − a) + ε³(d − a) with ε infinitesimal is inside the first
-    // tetrahedron and on no plane through three points: the first of a, b, c, d that is not on the
-    // plane decides its side.
-    let probe = at(points, [a, b, c, d]);
-    let within = |facet: [u32; 3]| {
-        let [u, v, w] = at(points, facet);
-        probe.into_iter().map(|p| orient3d(u, v, w, p)).find(|&sign| sign != 0) == Some(-1)
-    };
     for &side in &complex.hull {
         let corners = complex.corners(side);
-        if !within(corners) {
+        if !is_within(inside, at(points, corners)) {
             findings.add(|| {
                 let detail = format!("its hull triangle {corners:?} is turned away from the inside of tetrahedron 0");
                 Defect::at_tetrahedron(side.tetrahedron, detail)
             });
         }
     }
-    let parts = parallel::map_ranges(Threads::All, complex.tetrahedra.len(), |range| {
+    findings
+}
+
+/// Checks that no other tetrahedron contains a point inside the first one. `others` are those after it.
+pub(crate) fn check_overlaps(inside: [[f64; 3]; 4], points: &[[f64; 3]], others: &[[u32; 4]]) -> Findings {
+    let parts = parallel::map_ranges(Threads::All, others.len(), |range| {
         let mut findings = Findings::default();
-        for (t, vertices) in range.clone().zip(&complex.tetrahedra[range]) {
-            if t > 0 && FACETS.iter().all(|facet| within(facet.map(|i| vertices[i]))) {
-                findings.add(|| Defect::at_tetrahedron(t, "overlaps tetrahedron 0".to_owned()));
+        for (t, &vertices) in range.clone().zip(&others[range]) {
+            let corners = at(points, vertices);
+            if FACETS.iter().all(|facet| is_within(inside, facet.map(|i| corners[i]))) {
+                findings.add(|| Defect::at_tetrahedron(t + 1, "overlaps tetrahedron 0".to_owned()));
             }
         }
         findings
     });
-    std::iter::once(findings).chain(parts).collect()
+    parts.into_iter().collect()
 }

@@ -1,8 +1,8 @@
 //! Verification of a 3D mesh: see [`verify`](mod@crate::verify) for what is checked and why it is
 //! enough.
 
-mod complex;
-mod geometry;
+pub(crate) mod complex;
+pub(crate) mod geometry;
 
 use crate::{
     d3::Mesh3,

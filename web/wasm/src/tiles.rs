@@ -106,8 +106,8 @@ impl WasmTile {
     /// Ends the steps. Returns how many simplices the tile has, its statistics, and the duplicates among its points.
     pub fn finish(&mut self) -> Result<JsValue, Thrown> {
         let (stats, done) = match self.0.take() {
-            Some(AnyTile::In2(tile)) => (tile.stats().clone(), AnyTile::Done2(tile.finish())),
-            Some(AnyTile::In3(tile)) => (tile.stats().clone(), AnyTile::Done3(tile.finish())),
+            Some(AnyTile::In2(tile)) => (tile.stats().clone(), AnyTile::Done2(tile.finish()?)),
+            Some(AnyTile::In3(tile)) => (tile.stats().clone(), AnyTile::Done3(tile.finish()?)),
             _ => return Err(no_tile()),
         };
         let (count, duplicates) = match &done {
