@@ -23,6 +23,10 @@ pub(crate) enum Failure {
         shown(path)
     )]
     NoPoints { path: PathBuf },
+    #[error("{}: damaged ({what}): remove the folder {} to begin anew", shown(path), shown(folder))]
+    Damaged { path: PathBuf, folder: PathBuf, what: String },
+    #[error("{}: {what}", shown(path))]
+    Folder { path: PathBuf, what: String },
     #[error("{} computes wrong results", .0.join(" and "))]
     WrongDevices(Vec<String>),
     #[error("standard output: {0}")]

@@ -22,6 +22,7 @@ mod report;
 mod signals;
 mod sphere;
 mod surface;
+mod tiles;
 mod tin;
 mod transport;
 mod tree;

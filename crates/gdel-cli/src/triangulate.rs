@@ -6,6 +6,7 @@ use super::{
     failure::Failure,
     progress::Progress,
     report::Report,
+    tiles::{self, Request, Tiling},
     verify,
     weights::Weights,
 };
@@ -14,7 +15,14 @@ use clap::{
     builder::{PossibleValuesParser, TypedValueParser},
     error::ErrorKind,
 };
-use gdel::{Backend, Mesh3, Points, Triangulator};
+use gdel::{
+    Backend, Mesh3, Points, Triangulator,
+    internals::{
+        Options,
+        geometry::{Euclidean, Geometry},
+    },
+    tiles::Provable,
+};
 use gdel_io::{
     PointCloud, PointFormat, ShapeFormat,
     files::{Input, Output},
@@ -23,6 +31,7 @@ use serde::Serialize;
 use std::{
     fmt::Display,
     io::{self, Write},
+    iter,
     num::NonZeroUsize,
     ops::ControlFlow,
     path::{Path, PathBuf},
@@ -37,6 +46,9 @@ pub(super) struct Arguments {
     /// .e57, .npy, .node, .f32 or .f64; or shapes: .geojson or .json, .svg, or .poly of the program Triangle; or `-` for
     /// standard input, with `--format`
     input: PathBuf,
+    /// More files with points, which follow those of the first one. Need --tiles
+    #[arg(value_name = "INPUT", requires = "tiles")]
+    more: Vec<PathBuf>,
     /// Where to write: the mesh as .node, .ele and .neigh (TetGen, always all three), .vtu, .npz, .msh (Gmsh) or, with
     /// segments, .poly (Triangle);
     /// its hull as .ply, .obj, .stl, .glb or .3mf, for points in a plane their polygon from both sides; may
@@ -78,6 +90,8 @@ pub(super) struct Arguments {
     split: bool,
     #[command(flatten)]
     refine: Refine,
+    #[command(flatten)]
+    tiling: Tiling,
     /// Where to compute; the mesh is the same everywhere
     #[arg(long, value_enum, default_value_t = BackendName::Auto)]
     backend: BackendName,
@@ -176,7 +190,32 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.sphere {
         return triangulate_sphere(arguments);
     }
+    if arguments.tiling.tiles.is_some() {
+        return in_dimension!(arguments.dim.unwrap_or(Dimension::Three), tile_in, arguments);
+    }
     in_dimension!(arguments.dim.unwrap_or(Dimension::Three), run_in, arguments)
+}
+
+/// Triangulates points in tiles.
+fn tile_in<M: Triangulation<D, N>, const D: usize, const N: usize>(arguments: &Arguments) -> Result<(), Failure>
+where
+    gdel::internals::dimension::Dimension<D>: Provable<D, N>,
+    Euclidean: Geometry<D, N>,
+{
+    let Some(folder) = &arguments.tiling.tiles else { return Ok(()) };
+    let request = Request {
+        inputs: iter::once(&arguments.input).chain(&arguments.more).map(PathBuf::as_path).collect(),
+        format: match arguments.format {
+            Some(InputFormat::Points(format)) => Some(format),
+            _ => None,
+        },
+        tiling: &arguments.tiling,
+        force: arguments.force,
+        options: Options { threads: arguments.threads, ..Options::default() },
+        verify: arguments.verify,
+        stats: arguments.stats,
+    };
+    tiles::run::<M, D, N>(folder, &request)
 }
 
 fn usage<T>(kind: ErrorKind, what: &str) -> Result<T, Failure> {

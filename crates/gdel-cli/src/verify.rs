@@ -4,9 +4,15 @@ use super::{
     dimension::{Dimension, Triangulation, format_parser, in_dimension, read},
     failure::Failure,
     progress::Progress,
+    tiles,
 };
-use clap::Args;
-use gdel::{Points, verify::Report};
+use clap::{Args, error::ErrorKind};
+use gdel::{
+    Points,
+    internals::geometry::{Euclidean, Geometry},
+    tiles::Provable,
+    verify::Report,
+};
 use gdel_io::{
     PointBuf, PointFormat,
     files::{Input, read_mesh},
@@ -23,7 +29,8 @@ pub(super) struct Arguments {
     /// The points, in any format that `triangulate` reads, or `-` for standard input; without them,
     /// the points that the mesh's file holds. Where both are there, they must be the same.
     points: Option<PathBuf>,
-    /// The mesh: .ele (with the .neigh and .node beside it, if any), .vtu or .npz
+    /// The mesh: .ele (with the .neigh and .node beside it, if any), .vtu or .npz, or the folder of a mesh in tiles, which
+    /// holds its points
     mesh: PathBuf,
     /// The dimension of the mesh
     #[arg(long, value_enum, default_value_t = Dimension::Three)]
@@ -37,8 +44,19 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     in_dimension!(arguments.dim, run_in, arguments)
 }
 
-fn run_in<M: Triangulation<D, N>, const D: usize, const N: usize>(arguments: &Arguments) -> Result<(), Failure> {
+fn run_in<M: Triangulation<D, N>, const D: usize, const N: usize>(arguments: &Arguments) -> Result<(), Failure>
+where
+    gdel::internals::dimension::Dimension<D>: Provable<D, N>,
+    Euclidean: Geometry<D, N>,
+{
     let path = &arguments.mesh;
+    if path.is_dir() {
+        if arguments.points.is_some() {
+            let what = "a mesh in tiles holds its points: leave out the other file";
+            return Err(Failure::Usage(ErrorKind::ArgumentConflict, what.into()));
+        }
+        return tell(path, &tiles::prove::<M, D, N>(path)?);
+    }
     let points = arguments.points.as_ref().map(|path| Input::new(path, arguments.format)).transpose()?;
     let reading = Progress::new("reading");
     let given = points.as_ref().map(read::<D>).transpose()?;
@@ -57,9 +75,14 @@ fn run_in<M: Triangulation<D, N>, const D: usize, const N: usize>(arguments: &Ar
         }
         _ => return Err(Failure::NoPoints { path: path.clone() }),
     };
+    tell(path, &report)
+}
+
+/// Prints the report, and fails unless all checks passed.
+fn tell(path: &Path, report: &Report) -> Result<(), Failure> {
     let printed = writeln!(io::stdout().lock(), "{report}");
     // Also for those who do not read the report.
-    conclude(path, &report)?;
+    conclude(path, report)?;
     Ok(printed?)
 }
 

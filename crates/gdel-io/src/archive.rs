@@ -1,7 +1,7 @@
 //! ZIP archives, which NumPy's `.npz` and 3MF are.
 
 use crate::surface::MARK;
-use std::io::{self, Write};
+use std::io::{self, Read, Seek, Write};
 use zip::{
     CompressionMethod, ZipWriter,
     write::{SimpleFileOptions, StreamWriter},
@@ -50,6 +50,26 @@ impl<W: Write> Write for Latch<'_, W> {
     }
 }
 
+/// Adds a file to an archive.
+pub(super) fn append(
+    archive: impl Read + Write + Seek,
+    name: &str,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
+    let mut archive = ZipWriter::new_append(archive)?;
+    archive.start_file(name, options(CompressionMethod::Stored))?;
+    write(&mut archive)?;
+    archive.finish()?.flush()
+}
+
+/// 64-bit sizes allow for meshes of any size. Without dates, equal meshes give equal files.
+fn options(compression: CompressionMethod) -> SimpleFileOptions {
+    SimpleFileOptions::default()
+        .compression_method(compression)
+        .large_file(true)
+        .last_modified_time(zip::DateTime::default())
+}
+
 /// An archive that is being written.
 pub(super) struct Archive<'w>(ZipWriter<StreamWriter<&'w mut dyn Write>>);
 
@@ -61,12 +81,7 @@ impl<'w> Archive<'w> {
         compression: CompressionMethod,
         write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> io::Result<()> {
-        // 64-bit sizes allow for meshes of any size. Without dates, equal meshes give equal files.
-        let options = SimpleFileOptions::default()
-            .compression_method(compression)
-            .large_file(true)
-            .last_modified_time(zip::DateTime::default());
-        self.0.start_file(name, options)?;
+        self.0.start_file(name, options(compression))?;
         write(&mut self.0)
     }
 }

@@ -12,6 +12,7 @@ use std::{
 };
 
 mod output;
+mod pieces;
 mod temporary;
 
 pub use output::{Output, PointOutput, ResultOutput};
@@ -238,6 +239,15 @@ pub fn read_mesh<M: Mesh<D, N>, const D: usize, const N: usize>(path: &Path) -> 
         }
     }
     Ok(mesh)
+}
+
+/// Writes a file: one of the same name is replaced once all is written, and stays as it is on failure.
+///
+/// # Errors
+///
+/// Returns [`FileError::Write`].
+pub fn write_file(path: &Path, content: impl Fn(&mut dyn io::Write) -> io::Result<()>) -> Result<(), FileError> {
+    temporary::publish(vec![temporary::prepare(path, content)?])
 }
 
 /// Writes a point cloud; the extension says in which format. A file of the same name is replaced.

@@ -42,6 +42,7 @@ mod table;
 mod tetgen;
 mod text;
 mod three_mf;
+mod tiles;
 mod vtu;
 
 pub use colors::{ColorSource, PointColors};
@@ -57,4 +58,5 @@ pub use shapes::Shapes;
 pub use solver::{write_msh, write_poly};
 pub use table::{CellShape, Column, Grid, Table};
 pub use tetgen::{read_ele, read_neigh, write_ele, write_neigh, write_node};
+pub use tiles::{append_links, read_tile, read_tile_vtu, write_pvtu, write_tile, write_tile_vtu};
 pub use vtu::{read_vtu, write_vtu};

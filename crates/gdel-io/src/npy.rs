@@ -24,6 +24,16 @@ pub(super) struct Array<'a> {
 
 impl<'a> Array<'a> {
     pub(super) fn parse(bytes: &'a [u8]) -> Result<Self, FormatError> {
+        let array = Self::parse_header(bytes)?;
+        let promised = array.shape.iter().try_fold(array.size, |n, &dimension| n.checked_mul(dimension));
+        if promised.is_none_or(|n| n > array.data.len()) {
+            return Err(array.truncated(bytes.len()));
+        }
+        Ok(array)
+    }
+
+    /// Parses a file of which not all data may be there: its beginning, or all of it.
+    fn parse_header(bytes: &'a [u8]) -> Result<Self, FormatError> {
         let Some(rest) = bytes.strip_prefix(b"\x93NUMPY") else {
             return Err(FormatError::byte(0, "not a NumPy array: it does not start with \\x93NUMPY"));
         };
@@ -54,15 +64,12 @@ impl<'a> Array<'a> {
         let fortran_order = value("fortran_order")?.starts_with(b"True");
         let shape = tuple(value("shape")?).ok_or_else(|| invalid("the shape is not a tuple of numbers".into()))?;
         let offset = start + length;
-        let data = &bytes[offset..];
-        let promised = shape.iter().try_fold(size, |n, &dimension| n.checked_mul(dimension));
-        if promised.is_none_or(|n| n > data.len()) {
-            return Err(FormatError::byte(
-                bytes.len(),
-                format!("the file ends before all of its array of shape {shape:?}"),
-            ));
-        }
-        Ok(Array { big_endian, kind, size, shape, fortran_order, offset, data })
+        Ok(Array { big_endian, kind, size, shape, fortran_order, offset, data: &bytes[offset..] })
+    }
+
+    /// The file ends before its array.
+    fn truncated(&self, size: usize) -> FormatError {
+        FormatError::byte(size, format!("the file ends before all of its array of shape {:?}", self.shape))
     }
 
     /// Returns the rows of an array of shape (n, `N`), whatever its order in memory; `decode` gets
@@ -134,6 +141,19 @@ impl<'a> Array<'a> {
         }
     }
 
+    /// Returns the elements of an array of shape (n,) of unsigned 32-bit numbers.
+    pub(super) fn vector(mut self) -> Result<Vec<u32>, FormatError> {
+        if self.shape.len() != 1 || (self.kind, self.size) != (b'u', 4) {
+            let what = format!(
+                "a vector of type u4 expected, found type {}{} and shape {:?}",
+                self.kind as char, self.size, self.shape
+            );
+            return Err(FormatError::byte(self.offset, what));
+        }
+        self.shape.push(1);
+        Ok(self.rows::<_, 1, 4>(u32::from_le_bytes)?.into_flattened())
+    }
+
     fn unsupported(&self, what: &str) -> FormatError {
         let what = format!("{what} of type {}{} are not supported", self.kind as char, self.size);
         FormatError::byte(self.offset, what)
@@ -189,6 +209,40 @@ fn tuple(value: &[u8]) -> Option<Vec<usize>> {
     let inside = value.strip_prefix(b"(")?.split(|&b| b == b')').next()?;
     let text = std::str::from_utf8(inside).ok()?;
     text.split(',').map(str::trim).filter(|number| !number.is_empty()).map(|number| number.parse().ok()).collect()
+}
+
+/// What the header of a file of points says, for reading them a few at a time.
+pub(super) struct Rows {
+    header: Vec<u8>,
+    /// The number of points.
+    pub(super) count: usize,
+    /// Bytes of a point.
+    pub(super) stride: usize,
+    /// The byte at which the points begin.
+    pub(super) offset: usize,
+}
+
+impl Rows {
+    /// Returns the rows of a file of `size` bytes that begins with these bytes; `None` if its points are not one after
+    /// the other.
+    pub(super) fn new(beginning: &[u8], size: u64) -> Result<Option<Self>, FormatError> {
+        let array = Array::parse_header(beginning)?;
+        let (false, &[count, columns]) = (array.fortran_order, &array.shape[..]) else { return Ok(None) };
+        let bytes = columns.checked_mul(array.size).and_then(|stride| Some((stride, stride.checked_mul(count)?)));
+        let Some((stride, _)) = bytes.filter(|&(_, all)| array.offset as u64 + all as u64 == size) else {
+            return Ok(None);
+        };
+        let header = beginning[..array.offset].to_vec();
+        Ok(Some(Rows { header, count, stride, offset: array.offset }))
+    }
+
+    /// Returns the points in the bytes of some rows.
+    pub(super) fn points<const D: usize>(&self, bytes: &[u8]) -> Result<PointCloud<D>, FormatError> {
+        let mut array = Array::parse_header(&self.header)?;
+        array.data = bytes;
+        array.shape[0] = bytes.len().checked_div(self.stride).unwrap_or(0);
+        array.points()
+    }
 }
 
 pub(super) fn read<const D: usize>(bytes: &[u8]) -> Result<PointCloud<D>, FormatError> {

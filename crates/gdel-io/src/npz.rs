@@ -8,7 +8,7 @@ use crate::{
 };
 use gdel::{NONE, Points};
 use std::{
-    io::{self, Cursor, Read, Write},
+    io::{self, Cursor, Read, Seek, Write},
     ops::RangeInclusive,
 };
 use zip::{CompressionMethod, ZipArchive, result::ZipError};
@@ -22,8 +22,7 @@ const LARGEST_RATIO: u64 = 1032;
 ///
 /// Returns an error if the archive or an array is broken or missing.
 pub fn read_npz<M: Mesh<D, N>, const D: usize, const N: usize>(bytes: &[u8]) -> Result<MeshData<D, N>, FormatError> {
-    let mut archive = ZipArchive::new(Cursor::new(bytes))
-        .map_err(|error| FormatError::byte(0, format!("not a whole ZIP archive, which .npz is: {error}")))?;
+    let mut archive = open(Cursor::new(bytes))?;
     let Names { simplices, adjacency, .. } = M::NAMES;
     let Some(rows) = read_indices(&mut archive, simplices, 0..=u32::MAX.into())? else {
         return Err(FormatError::byte(0, format!("the archive has no array `{simplices}`")));
@@ -36,8 +35,14 @@ pub fn read_npz<M: Mesh<D, N>, const D: usize, const N: usize>(bytes: &[u8]) -> 
     Ok(MeshData { points, ..M::from_arrays(simplices, adjacency) })
 }
 
-fn read_indices<const N: usize>(
-    archive: &mut ZipArchive<Cursor<&[u8]>>,
+/// Opens an archive.
+pub(super) fn open<R: Read + Seek>(from: R) -> Result<ZipArchive<R>, FormatError> {
+    let not_whole = |error| FormatError::byte(0, format!("not a whole ZIP archive, which .npz is: {error}"));
+    ZipArchive::new(from).map_err(not_whole)
+}
+
+pub(super) fn read_indices<const N: usize>(
+    archive: &mut ZipArchive<impl Read + Seek>,
     name: &str,
     range: RangeInclusive<i64>,
 ) -> Result<Option<Vec<[i64; N]>>, FormatError> {
@@ -49,8 +54,8 @@ fn read_indices<const N: usize>(
 }
 
 /// Reads the array of that name, where there is one.
-fn read_array<T>(
-    archive: &mut ZipArchive<Cursor<&[u8]>>,
+pub(super) fn read_array<T>(
+    archive: &mut ZipArchive<impl Read + Seek>,
     name: &str,
     read: impl FnOnce(Array<'_>) -> Result<T, FormatError>,
 ) -> Result<Option<T>, FormatError> {

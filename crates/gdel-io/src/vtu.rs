@@ -50,19 +50,11 @@ pub fn write_vtu<const D: usize, const N: usize, M: Mesh<D, N>>(
     };
     let offsets = |to: &mut dyn Write| (1..=cells).try_for_each(|cell| to.write_all(&(N as u64 * cell).to_le_bytes()));
     let types = |to: &mut dyn Write| (0..cells).try_for_each(|_| to.write_all(&[M::NAMES.vtk]));
-    let array = |element, name, kind, components, length, content| Array {
-        element,
-        name,
-        kind,
-        components,
-        length,
-        content: Content::Written(content),
-    };
-    let arrays: [Array<'_>; 4] = [
-        array("Points", "Points", number, 3, points.len() as u64 * 3 * size, &coordinates),
-        array("Cells", "connectivity", "Int64", 1, cells * N as u64 * 8, &connectivity),
-        array("Cells", "offsets", "Int64", 1, cells * 8, &offsets),
-        array("Cells", "types", "UInt8", 1, cells, &types),
+    let arrays = [
+        Array::written("Points", "Points", number, 3, points.len() as u64 * 3 * size, &coordinates),
+        Array::written("Cells", "connectivity", "Int64", 1, cells * N as u64 * 8, &connectivity),
+        Array::written("Cells", "offsets", "Int64", 1, cells * 8, &offsets),
+        Array::written("Cells", "types", "UInt8", 1, cells, &types),
     ];
     write_arrays(to, points.len(), mesh.simplices().len(), &arrays)
 }
@@ -89,6 +81,18 @@ enum Content<'a> {
 impl<'a> Array<'a> {
     pub(super) fn new(element: &'a str, name: &'a str, kind: &'a str, components: u32, bytes: Vec<u8>) -> Self {
         Array { element, name, kind, components, length: bytes.len() as u64, content: Content::Bytes(bytes) }
+    }
+
+    /// Creates an array of `length` bytes that is written when it is needed.
+    pub(super) fn written(
+        element: &'a str,
+        name: &'a str,
+        kind: &'a str,
+        components: u32,
+        length: u64,
+        write: &'a dyn Fn(&mut dyn Write) -> io::Result<()>,
+    ) -> Self {
+        Array { element, name, kind, components, length, content: Content::Written(write) }
     }
 }
 
@@ -166,6 +170,18 @@ pub fn read_vtu<M: Mesh<D, N>, const D: usize, const N: usize>(bytes: &[u8]) -> 
         Ok(points.resize())
     });
     Ok(MeshData { points: points.transpose()?, ..M::from_arrays(simplices, None) })
+}
+
+/// Reads arrays of numbers of 32 bits.
+pub(super) fn read_words<const N: usize>(bytes: &[u8], names: [&str; N]) -> Result<[Vec<u32>; N], FormatError> {
+    let file = File::parse(bytes)?;
+    let mut arrays = [const { Vec::new() }; N];
+    for (array, name) in arrays.iter_mut().zip(names) {
+        let words = file.integers(name)?.into_iter().map(|x| u32::try_from(x).ok()).collect();
+        let what = || FormatError::byte(0, format!("data array `{name}`: not all of its values have 32 bits"));
+        *array = Option::ok_or_else(words, what)?;
+    }
+    Ok(arrays)
 }
 
 /// The data arrays of a file, not yet decoded.

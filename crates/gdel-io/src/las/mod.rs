@@ -33,17 +33,94 @@ pub fn panics_are_caught() -> bool {
 const EVLR: std::ops::Range<usize> = 235..247;
 
 pub(super) fn read(mut bytes: Vec<u8>) -> Result<PointCloud, FormatError> {
+    let start = prepare(&mut bytes)?;
+    guarded(start, || decode(&bytes, start))
+}
+
+/// Reads the points without their colours, at most `most` at a time, until `take` returns `false`.
+pub(super) fn read_in_pieces(
+    mut bytes: Vec<u8>,
+    most: usize,
+    take: &mut dyn FnMut(PointBuf) -> bool,
+) -> Result<(), FormatError> {
+    let start = prepare(&mut bytes)?;
+    let mut points = Vec::new();
+    let mut goes_on = true;
+    guarded(start, || {
+        records(&bytes, start, |axes, record| {
+            if goes_on {
+                points.push(axes.point(record));
+                if points.len() == most {
+                    goes_on = take(PointBuf::F64(std::mem::take(&mut points)));
+                }
+            }
+        })
+    })?;
+    if goes_on && !points.is_empty() {
+        take(PointBuf::F64(points));
+    }
+    Ok(())
+}
+
+/// The records of a file that is not compressed, for reading them a few at a time.
+pub(super) struct Records {
+    axes: Axes,
+    /// The number of points.
+    pub(super) count: u64,
+    /// Bytes of a record.
+    pub(super) stride: usize,
+    /// The byte at which the records begin.
+    pub(super) offset: usize,
+}
+
+impl Records {
+    /// Returns how many bytes at the beginning of a file, which these are the first of, are before its points.
+    pub(super) fn offset(beginning: &[u8]) -> Option<usize> {
+        raw::Header::read_from(beginning).ok().map(|header| header.offset_to_point_data as usize)
+    }
+
+    /// Returns the records of a file of `size` bytes, of which these are before its points; `None` if they are compressed
+    /// or broken.
+    pub(super) fn new(beginning: &mut [u8], size: u64) -> Option<Self> {
+        let header = raw::Header::read_from(&*beginning).ok()?;
+        check_size(&header, usize::try_from(size).ok()?).ok()?;
+        if header.evlr.is_some() {
+            beginning.get_mut(EVLR)?.fill(0);
+        }
+        let header =
+            guarded(0, || Header::new(Cursor::new(&*beginning)).map_err(|error| in_header(error, beginning.len())));
+        let header = header.ok().filter(|header| !header.point_format().is_compressed)?;
+        Some(Records {
+            axes: Axes(*header.transforms()),
+            count: header.number_of_points(),
+            stride: header.point_format().len().into(),
+            offset: beginning.len(),
+        })
+    }
+
+    /// Returns the points in the bytes of some records.
+    pub(super) fn points(&self, bytes: &[u8]) -> Result<PointCloud, FormatError> {
+        PointCloud::new(PointBuf::F64(bytes.chunks_exact(self.stride).map(|record| self.axes.point(record)).collect()))
+    }
+}
+
+/// Checks the sizes in a file. Returns the byte at which the points begin.
+fn prepare(bytes: &mut [u8]) -> Result<usize, FormatError> {
     let size = bytes.len();
-    let header = raw::Header::read_from(bytes.as_slice()).map_err(|error| in_header(error, size))?;
+    let header = raw::Header::read_from(&*bytes).map_err(|error| in_header(error, size))?;
     check_size(&header, size)?;
     if header.evlr.is_some() {
         // These records have nothing about coordinates, and the crate allocates the size that they
         // promise.
         bytes[EVLR].fill(0);
     }
-    let start = header.offset_to_point_data as usize;
+    Ok(header.offset_to_point_data as usize)
+}
+
+/// Runs a decoder, whose panics become errors.
+fn guarded<T>(start: usize, decode: impl FnOnce() -> Result<T, FormatError>) -> Result<T, FormatError> {
     PANICS_ARE_CAUGHT.set(true);
-    let result = catch_unwind(AssertUnwindSafe(|| decode(&bytes, start)));
+    let result = catch_unwind(AssertUnwindSafe(decode));
     PANICS_ARE_CAUGHT.set(false);
     result.unwrap_or_else(|_| Err(FormatError::byte(start, "the compressed data is broken")))
 }
@@ -74,21 +151,42 @@ fn point_count(header: &raw::Header) -> u64 {
     }
 }
 
+/// How the coordinates of records become those of points.
+struct Axes(::las::Vector<::las::Transform>);
+
+impl Axes {
+    /// Returns the point of a record: every format's begins with the three coordinates.
+    fn point(&self, record: &[u8]) -> [f64; 3] {
+        let [x, y, z] = [0, 4, 8].map(|at| i32::from_le_bytes(*record[at..].first_chunk().expect("20 bytes or more")));
+        [self.0.x.direct(x), self.0.y.direct(y), self.0.z.direct(z)]
+    }
+}
+
+/// Hands the records of all points, which begin at the byte `start`, to `add`.
+fn records(bytes: &[u8], start: usize, mut add: impl FnMut(&Axes, &[u8])) -> Result<(), FormatError> {
+    let header = Header::new(Cursor::new(bytes)).map_err(|error| in_header(error, bytes.len()))?;
+    let axes = Axes(*header.transforms());
+    if header.point_format().is_compressed {
+        return laz::decode(bytes, start, &header, |record| add(&axes, record));
+    }
+    let records = bytes[start..].chunks_exact(header.point_format().len().into());
+    records.take(header.number_of_points() as usize).for_each(|record| add(&axes, record));
+    Ok(())
+}
+
 /// Reads the points, which begin at the byte `start`.
 fn decode(bytes: &[u8], start: usize) -> Result<PointCloud, FormatError> {
     let header = Header::new(Cursor::new(bytes)).map_err(|error| in_header(error, bytes.len()))?;
-    let axes = header.transforms();
     let rgb = rgb_at(header.point_format());
     let mut points = Vec::new();
     let has = std::array::from_fn(|channel| channel == INTENSITY || channel < 3 && rgb.is_some());
     let mut colors = Colors::new(has, Range::Words);
     let mut sample = [f64::NAN; CHANNELS];
-    // Every format's record begins with the three coordinates and the intensity.
-    let mut add = |record: &[u8]| {
-        let [x, y, z] = [0, 4, 8].map(|at| i32::from_le_bytes(*record[at..].first_chunk().expect("20 bytes or more")));
-        points.push([axes.x.direct(x), axes.y.direct(y), axes.z.direct(z)]);
+    records(bytes, start, |axes, record| {
+        points.push(axes.point(record));
         let word =
             |at: usize| record.get(at..at + 2).map_or(0.0, |word| f64::from(u16::from_le_bytes([word[0], word[1]])));
+        // Every format has the intensity after the coordinates.
         sample[INTENSITY] = word(12);
         if let Some(rgb) = rgb {
             for (k, x) in sample[..3].iter_mut().enumerate() {
@@ -96,13 +194,7 @@ fn decode(bytes: &[u8], start: usize) -> Result<PointCloud, FormatError> {
             }
         }
         colors.push(&sample);
-    };
-    if header.point_format().is_compressed {
-        laz::decode(bytes, start, &header, add)?;
-    } else {
-        let records = bytes[start..].chunks_exact(header.point_format().len().into());
-        records.take(header.number_of_points() as usize).for_each(&mut add);
-    }
+    })?;
     Ok(PointCloud::new(PointBuf::F64(points))?.colored(colors))
 }
 

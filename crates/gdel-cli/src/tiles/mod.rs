@@ -1,0 +1,301 @@
+//! `gdel triangulate --tiles`: points that are larger than memory, to a mesh in a folder.
+//!
+//! `survey → split → steps → pieces → links`, of which each leaves files behind: a run that was ended goes on where it was.
+
+mod folder;
+mod pieces;
+mod split;
+mod steps;
+mod verify;
+
+pub(crate) use verify::prove;
+
+use crate::{
+    dimension::Triangulation,
+    failure::Failure,
+    progress::Progress,
+    triangulate::{StatsForm, print},
+    verify::conclude,
+};
+use clap::{Args, ValueEnum};
+use folder::Folder;
+use gdel::{
+    internals::{
+        Options,
+        dimension::Dimension,
+        geometry::{Euclidean, Geometry},
+    },
+    tiles::{Plan, Provable},
+    verify::Report as Proof,
+};
+use gdel_io::{PointFormat, files::Input};
+use serde::{Deserialize, Serialize};
+use std::{
+    collections::BTreeMap,
+    fmt,
+    path::{Path, PathBuf},
+    sync::Arc,
+    time::{Instant, UNIX_EPOCH},
+};
+
+/// Options for a mesh in tiles.
+#[derive(Args)]
+pub(crate) struct Tiling {
+    /// Write a folder with a mesh in tiles: for points and a mesh that are larger than memory. What is unfinished goes on
+    /// when the same command is run again
+    #[arg(long, value_name = "FOLDER", conflicts_with_all = ["outputs", "sphere", "rescale", "weights", "radii"])]
+    #[arg(conflicts_with_all = ["edges", "fill", "split", "repeat", "backend"])]
+    pub(crate) tiles: Option<PathBuf>,
+    /// Use about so much memory: a number of bytes, or as in 8GB or 500MB
+    #[arg(long, value_name = "SIZE", value_parser = parse_size, default_value = "4GB", requires = "tiles")]
+    memory: u64,
+    /// The format of the files of tiles
+    #[arg(long, value_enum, default_value_t = TileFormat::Npz, requires = "tiles")]
+    tile_format: TileFormat,
+}
+
+/// The format of the files of tiles.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ValueEnum)]
+pub(crate) enum TileFormat {
+    /// NumPy arrays with neighbours
+    Npz,
+    /// VTK's unstructured grids, with a .pvtu that names all of them
+    Vtu,
+}
+
+impl TileFormat {
+    /// Returns the name of the file of a tile.
+    fn file(self, tile: u32) -> String {
+        match self {
+            TileFormat::Npz => format!("tile-{tile:05}.npz"),
+            TileFormat::Vtu => format!("tile-{tile:05}.vtu"),
+        }
+    }
+}
+
+/// Parses a number of bytes.
+fn parse_size(text: &str) -> Result<u64, String> {
+    let text = text.trim();
+    let digits = text.trim_end_matches(|c: char| c.is_ascii_alphabetic() || c == ' ');
+    let unit = match text[digits.len()..].trim().to_ascii_uppercase().as_str() {
+        "" | "B" => 1.0,
+        "KB" | "K" => 1e3,
+        "MB" | "M" => 1e6,
+        "GB" | "G" => 1e9,
+        "TB" | "T" => 1e12,
+        _ => return Err("a number of bytes is needed, as in 8GB or 500MB".into()),
+    };
+    let number = digits.parse::<f64>().ok().filter(|&number| number > 0.0 && number.is_finite());
+    number.map(|number| (number * unit) as u64).ok_or_else(|| "a positive number of bytes is needed".into())
+}
+
+/// What a run is of: another run of the same goes on with it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Order {
+    /// Each file with its size and the nanoseconds at which it was changed.
+    inputs: Vec<(PathBuf, u64, u128)>,
+    dim: usize,
+    format: TileFormat,
+    memory: u64,
+}
+
+/// How far a run has come.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct State {
+    order: Order,
+    tiles: u32,
+    points: u64,
+    /// The step that is taken next; `None` if all are.
+    step: Option<u32>,
+    /// Points that were sent, each as often as it was.
+    sent: u64,
+}
+
+const STATE: &str = "state.json";
+const PLAN: &str = "plan";
+
+/// A run, which keeps its files in a folder.
+struct Run<const D: usize> {
+    folder: Folder,
+    state: State,
+    plan: Arc<Plan<D>>,
+    options: Options,
+}
+
+impl<const D: usize> Run<D> {
+    /// Notes how far the run has come.
+    fn save(&self) -> Result<(), Failure> {
+        self.folder.write_json(&self.folder.work(STATE), &self.state)
+    }
+}
+
+/// The arguments of a run.
+pub(crate) struct Request<'a> {
+    pub(crate) inputs: Vec<&'a Path>,
+    pub(crate) format: Option<PointFormat>,
+    pub(crate) tiling: &'a Tiling,
+    pub(crate) force: bool,
+    pub(crate) options: Options,
+    pub(crate) verify: bool,
+    pub(crate) stats: Option<StatsForm>,
+}
+
+/// Triangulates points into the folder of `request`.
+pub(crate) fn run<M: Triangulation<D, N>, const D: usize, const N: usize>(
+    path: &Path,
+    request: &Request<'_>,
+) -> Result<(), Failure>
+where
+    Dimension<D>: Provable<D, N>,
+    Euclidean: Geometry<D, N>,
+{
+    let inputs: Vec<Input> =
+        request.inputs.iter().map(|path| Input::new(path, request.format)).collect::<Result<_, _>>()?;
+    let order = Order {
+        inputs: inputs.iter().map(stamp).collect::<Result<_, _>>()?,
+        dim: D,
+        format: request.tiling.tile_format,
+        memory: request.tiling.memory,
+    };
+    let mut clock = Clock::default();
+    let folder = Folder::create(path, request.force)?;
+    let state = folder.read_json::<State>(&folder.work(STATE))?.filter(|state| state.order == order);
+    let resumed = state.is_some();
+    let mut run = match state {
+        Some(state) => {
+            let plan = Plan::from_bytes(&folder.read(PLAN)?).map_err(|error| folder.damaged(PLAN, error))?;
+            Run { folder, state, plan: Arc::new(plan), options: request.options.clone() }
+        }
+        None => {
+            folder.clear()?;
+            let (survey, points) = clock.time("survey", |show| split::survey::<D>(&inputs, &order, show))?;
+            let tiles = split::tiles(points, order.memory);
+            let plan = Arc::new(Plan::new(survey, tiles));
+            folder.write(PLAN, &plan.to_bytes())?;
+            let state = State { order, tiles, points, step: Some(1), sent: 0 };
+            let run = Run { folder, state, plan, options: request.options.clone() };
+            clock.time("split", |show| split::split::<D, N>(&run, &inputs, show))?;
+            run.save()?;
+            run
+        }
+    };
+    clock.time("steps", |show| steps::take::<D, N>(&mut run, show))?;
+    clock.time("pieces", |show| pieces::write::<M, D, N>(&run, show))?;
+    let index = clock.time("links", |show| pieces::link::<M, D, N>(&run, show))?;
+    let State { tiles, sent, .. } = run.state;
+    run.folder.finish(&index)?;
+    let proof = request.verify.then(|| prove::<M, D, N>(path)).transpose()?;
+    let report = Report {
+        points: index.points,
+        duplicates: index.duplicates,
+        dimension: index.dimension,
+        simplices: Simplices::new(D, index.simplices),
+        tiles,
+        sent,
+        resumed,
+        verified: proof.as_ref().map(Proof::passed),
+        seconds: clock.0,
+    };
+    print(request.stats, &report)?;
+    proof.map_or(Ok(()), |proof| conclude(path, &proof))
+}
+
+/// Returns what tells a file from another version of it.
+fn stamp(input: &Input) -> Result<(PathBuf, u64, u128), Failure> {
+    let path = input.path();
+    let data = path.metadata().map_err(folder::read_error(path))?;
+    let modified = data.modified().map_err(folder::read_error(path))?;
+    let since = modified.duration_since(UNIX_EPOCH).unwrap_or_default().as_nanos();
+    let whole = path.canonicalize().map_err(folder::read_error(path))?;
+    Ok((whole, data.len(), since))
+}
+
+/// The seconds that each stage took.
+#[derive(Default)]
+struct Clock(BTreeMap<&'static str, f64>);
+
+impl Clock {
+    /// Runs a stage, which tells how far it is.
+    fn time<T>(
+        &mut self,
+        stage: &'static str,
+        work: impl FnOnce(&dyn Fn(f64)) -> Result<T, Failure>,
+    ) -> Result<T, Failure> {
+        let progress = Progress::new(stage);
+        let show = progress.reporter();
+        let start = Instant::now();
+        let result = work(&|fraction| show(stage, fraction));
+        self.0.insert(stage, start.elapsed().as_secs_f64());
+        result
+    }
+}
+
+/// The statistics of a run: as JSON by `serde`, for people by `Display`.
+#[derive(Serialize)]
+struct Report {
+    points: u64,
+    duplicates: u64,
+    dimension: u8,
+    #[serde(flatten)]
+    simplices: Simplices,
+    tiles: u32,
+    /// Points that tiles have sent each other.
+    sent: u64,
+    /// Whether the run went on with what an earlier one had done.
+    resumed: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    verified: Option<bool>,
+    seconds: BTreeMap<&'static str, f64>,
+}
+
+/// The number of simplices.
+#[derive(Serialize)]
+enum Simplices {
+    #[serde(rename = "triangles")]
+    Triangles(u64),
+    #[serde(rename = "tetrahedra")]
+    Tetrahedra(u64),
+}
+
+impl Simplices {
+    fn new(dim: usize, count: u64) -> Self {
+        if dim == 2 { Simplices::Triangles(count) } else { Simplices::Tetrahedra(count) }
+    }
+}
+
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "points          {}", self.points)?;
+        if self.duplicates > 0 {
+            write!(f, " ({} duplicates)", self.duplicates)?;
+        }
+        let (full, name, count) = match self.simplices {
+            Simplices::Triangles(count) => (2, "triangles", count),
+            Simplices::Tetrahedra(count) => (3, "tetrahedra", count),
+        };
+        if self.dimension < full {
+            write!(f, "\ndimension       {}, so there are no {name}", self.dimension)?;
+        }
+        write!(f, "\n{name:<15} {count}\ntiles           {}, which sent each other {} points", self.tiles, self.sent)?;
+        let total: f64 = self.seconds.values().sum();
+        write!(f, "\nseconds         {total:.3}")?;
+        for (i, stage) in ["survey", "split", "steps", "pieces", "links"].into_iter().enumerate() {
+            if let Some(seconds) = self.seconds.get(stage) {
+                write!(
+                    f,
+                    "{}{stage} {seconds:.3}",
+                    if i == 0 || self.resumed && stage == "steps" { " (" } else { ", " }
+                )?;
+            }
+        }
+        write!(f, ")")?;
+        if self.resumed {
+            write!(f, ", after an earlier run")?;
+        }
+        match self.verified {
+            Some(true) => write!(f, "\nverified        this is the Delaunay triangulation"),
+            Some(false) => write!(f, "\nverified        NOT the Delaunay triangulation"),
+            None => Ok(()),
+        }
+    }
+}

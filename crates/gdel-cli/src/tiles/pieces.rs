@@ -1,0 +1,141 @@
+//! The last stages: the files of tiles, and what is across their borders.
+
+use super::{
+    Run, TileFormat,
+    folder::{Index, KIND, read_error, write_error},
+    steps::load,
+};
+use crate::failure::Failure;
+use gdel::{
+    internals::{
+        dimension::Dimension,
+        geometry::{Euclidean, Geometry},
+    },
+    tiles::{Link, Rim, Seam, Tiled},
+};
+use gdel_io::{Mesh, append_links, files::write_file, write_pvtu, write_tile, write_tile_vtu};
+use serde::{Deserialize, Serialize};
+use std::fs::{self, OpenOptions};
+
+/// What is known of a piece that is written.
+#[derive(Serialize, Deserialize)]
+struct Counts {
+    simplices: u64,
+    duplicates: u64,
+}
+
+fn rim_file(tile: u32) -> String {
+    format!("rim-{tile:05}")
+}
+
+fn counts_file(tile: u32) -> String {
+    format!("counts-{tile:05}.json")
+}
+
+/// Writes the pieces of all tiles that have none yet.
+pub(super) fn write<M: Mesh<D, N>, const D: usize, const N: usize>(
+    run: &Run<D>,
+    show: &dyn Fn(f64),
+) -> Result<(), Failure>
+where
+    Dimension<D>: Tiled<D, N>,
+    Euclidean: Geometry<D, N>,
+{
+    for tile in 0..run.state.tiles {
+        // The counts are written last.
+        if !run.folder.work(&counts_file(tile)).exists() {
+            write_one::<M, D, N>(run, tile)?;
+        }
+        show(f64::from(tile + 1) / f64::from(run.state.tiles));
+    }
+    Ok(())
+}
+
+fn write_one<M: Mesh<D, N>, const D: usize, const N: usize>(run: &Run<D>, tile: u32) -> Result<(), Failure>
+where
+    Dimension<D>: Tiled<D, N>,
+    Euclidean: Geometry<D, N>,
+{
+    let (_, whole) = load::<D, N>(run, tile, u32::MAX.min(1000))?;
+    let failure = |source| Failure::Points { path: run.folder.work(""), source };
+    let piece = whole.into_piece().map_err(failure)?;
+    let format = run.state.order.format;
+    write_file(&run.folder.work(&format.file(tile)), |to| match format {
+        TileFormat::Npz => write_tile::<M, D, N>(to, &piece),
+        TileFormat::Vtu => write_tile_vtu::<M, D, N>(to, &piece),
+    })?;
+    run.folder.write(&rim_file(tile), &piece.rim().to_bytes())?;
+    let (simplices, duplicates) = (piece.part.simplices.len() as u64, piece.part.duplicates.len() as u64);
+    run.folder.write_json(&run.folder.work(&counts_file(tile)), &Counts { simplices, duplicates })
+}
+
+/// Links the pieces, and gives their files their names.
+pub(super) fn link<M: Mesh<D, N>, const D: usize, const N: usize>(
+    run: &Run<D>,
+    show: &dyn Fn(f64),
+) -> Result<Index, Failure>
+where
+    Dimension<D>: Tiled<D, N>,
+    Euclidean: Geometry<D, N>,
+{
+    let (folder, state) = (&run.folder, &run.state);
+    let mut links: Vec<Vec<Link>> = vec![Vec::new(); state.tiles as usize];
+    let mut seam = Seam::default();
+    for tile in 0..state.tiles {
+        let name = rim_file(tile);
+        let rim = Rim::<D>::from_bytes(&folder.read(&name)?).map_err(|error| folder.damaged(&name, error))?;
+        for (from, link) in seam.add_rim(tile, &rim) {
+            links[from as usize].push(link);
+        }
+        show(0.5 * f64::from(tile + 1) / f64::from(state.tiles));
+    }
+    if !seam.is_closed() {
+        return Err(folder.damaged("", "pieces do not fit together"));
+    }
+    let mut index = Index {
+        gdel: KIND.into(),
+        dim: D as u8,
+        dimension: run.plan.dimension(),
+        points: state.points,
+        duplicates: 0,
+        simplices: 0,
+        tiles: Vec::new(),
+    };
+    for (tile, mut links) in (0..).zip(links) {
+        let name = state.order.format.file(tile);
+        let (unfinished, finished) = (folder.work(&name), folder.finished(&name));
+        if !finished.exists() {
+            if state.order.format == TileFormat::Npz {
+                links.sort_unstable_by_key(|link| link.place);
+                append::<M, D, N>(run, tile, &links)?;
+            }
+            fs::rename(&unfinished, &finished).map_err(write_error(&finished))?;
+        }
+        let path = folder.work(&counts_file(tile));
+        let counts: Counts = folder.read_json(&path)?.ok_or_else(|| folder.damaged(&counts_file(tile), "no counts"))?;
+        index.simplices += counts.simplices;
+        index.duplicates += counts.duplicates;
+        index.tiles.push(name);
+        show(0.5 + 0.5 * f64::from(tile + 1) / f64::from(state.tiles));
+    }
+    if state.order.format == TileFormat::Vtu {
+        write_file(&folder.finished("mesh.pvtu"), |to| write_pvtu(to, &index.tiles))?;
+    }
+    Ok(index)
+}
+
+/// Appends its links to the file of a tile. A file in which an earlier run was interrupted is written anew.
+fn append<M: Mesh<D, N>, const D: usize, const N: usize>(run: &Run<D>, tile: u32, links: &[Link]) -> Result<(), Failure>
+where
+    Dimension<D>: Tiled<D, N>,
+    Euclidean: Geometry<D, N>,
+{
+    let path = run.folder.work(&run.state.order.format.file(tile));
+    let mark = run.folder.work(&format!("linking-{tile:05}"));
+    if mark.exists() {
+        write_one::<M, D, N>(run, tile)?;
+    }
+    fs::write(&mark, []).map_err(write_error(&mark))?;
+    let file = OpenOptions::new().read(true).write(true).open(&path).map_err(read_error(&path))?;
+    append_links(file, links).map_err(write_error(&path))
+}

@@ -1,0 +1,112 @@
+//! The steps of tiles, of which one is in memory.
+
+use super::{
+    Run,
+    folder::{Folder, remove},
+};
+use crate::failure::Failure;
+use gdel::{
+    Error,
+    internals::{
+        dimension::Dimension,
+        geometry::{Euclidean, Geometry},
+    },
+    tiles::{Tile, Tiled},
+};
+use std::sync::Arc;
+
+/// Returns the name of the file of a tile after a step.
+pub(super) fn tile_file(tile: u32, step: u32) -> String {
+    format!("tile-{tile:05}-{step:03}")
+}
+
+/// Returns the name of the file with what a tile has sent in a step.
+pub(super) fn outbox(tile: u32, step: u32) -> String {
+    format!("sent-{tile:05}-{step:03}")
+}
+
+/// Reads a tile after its last step before `step`. Returns the name of its file, too.
+pub(super) fn load<const D: usize, const N: usize>(
+    run: &Run<D>,
+    tile: u32,
+    step: u32,
+) -> Result<(String, Tile<D, N>), Failure>
+where
+    Dimension<D>: Tiled<D, N>,
+    Euclidean: Geometry<D, N>,
+{
+    let names = (0..step).rev().map(|step| tile_file(tile, step));
+    let name = names.into_iter().find(|name| run.folder.work(name).exists());
+    let name = name.unwrap_or_else(|| tile_file(tile, 0));
+    let bytes = run.folder.read(&name)?;
+    let whole = Tile::with_options_from_bytes(Arc::clone(&run.plan), &bytes, run.options.clone());
+    let whole = whole.map_err(|error| run.folder.damaged(&name, error))?;
+    Ok((name, whole))
+}
+
+/// Takes all steps that are left.
+pub(super) fn take<const D: usize, const N: usize>(run: &mut Run<D>, show: &dyn Fn(f64)) -> Result<(), Failure>
+where
+    Dimension<D>: Tiled<D, N>,
+    Euclidean: Geometry<D, N>,
+{
+    while let Some(step) = run.state.step {
+        for tile in 0..run.state.tiles {
+            if !run.folder.work(&outbox(tile, step)).exists() {
+                take_one::<D, N>(run, tile, step)?;
+            }
+            // Nobody knows how many there will be: five or six, mostly.
+            let done = f64::from(step - 1) + f64::from(tile + 1) / f64::from(run.state.tiles);
+            show(done / (done + 1.0).max(5.0));
+        }
+        let mut is_quiet = step > 1;
+        for tile in 0..run.state.tiles {
+            is_quiet &= run.folder.receivers(&outbox(tile, step))?.is_empty();
+        }
+        run.state.sent += sent::<D>(&run.folder, run.state.tiles, step)?;
+        run.state.step = if is_quiet { None } else { Some(step + 1) };
+        run.save()?;
+        (0..run.state.tiles).try_for_each(|tile| remove(&run.folder.work(&outbox(tile, step - 1))))?;
+    }
+    Ok(())
+}
+
+/// Returns how many points were sent in a step.
+fn sent<const D: usize>(folder: &Folder, tiles: u32, step: u32) -> Result<u64, Failure> {
+    let mut count = 0;
+    for name in (0..tiles).map(|tile| outbox(tile, step)) {
+        for place in folder.receivers(&name)? {
+            count += folder.receive::<D>(&name, place)?.points() as u64;
+        }
+    }
+    Ok(count)
+}
+
+/// Takes a step of one tile.
+fn take_one<const D: usize, const N: usize>(run: &Run<D>, tile: u32, step: u32) -> Result<(), Failure>
+where
+    Dimension<D>: Tiled<D, N>,
+    Euclidean: Geometry<D, N>,
+{
+    let folder = &run.folder;
+    let mut received = Vec::new();
+    for from in 0..run.state.tiles {
+        let name = outbox(from, step - 1);
+        for place in folder.receivers(&name)?.into_iter().filter(|&[to, ..]| to == u64::from(tile)) {
+            received.push((from, folder.receive(&name, place)?));
+        }
+    }
+    // A tile that receives nothing stays as it is.
+    if step > 2 && received.is_empty() {
+        return folder.send::<D>(&outbox(tile, step), &[]);
+    }
+    let (name, mut whole) = load::<D, N>(run, tile, step)?;
+    let sent = whole.step(received).map_err(|error| match error {
+        Error::BadMessage { .. } => folder.damaged(&name, error),
+        source => Failure::Points { path: folder.work(""), source },
+    })?;
+    whole.suspend();
+    folder.write(&tile_file(tile, step), &whole.to_bytes())?;
+    folder.send(&outbox(tile, step), &sent)?;
+    remove(&folder.work(&name))
+}
