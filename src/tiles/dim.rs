@@ -10,7 +10,7 @@ use crate::{
 use std::fmt::Debug;
 
 /// What tiles need of a dimension, with `N` vertices per simplex.
-pub trait Tiled<const D: usize, const N: usize>: Incremental<D, Triangulation: Slots<N> + Debug + Send> {
+pub trait Tiled<const D: usize, const N: usize>: Incremental<D, Triangulation: Slots<N> + Debug + Send + Sync> {
     /// By how much the entries of `neighbors` grow with each simplex before theirs.
     const STRIDE: u32;
 

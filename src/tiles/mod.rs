@@ -10,6 +10,7 @@
 
 mod border;
 mod bytes;
+mod core;
 mod d2;
 mod d3;
 mod dim;
@@ -22,6 +23,7 @@ mod state;
 mod survey;
 mod tile;
 
+pub use core::Core;
 pub use dim::{Provable, Tiled};
 pub use message::Message;
 pub use part::{BorderFacet, Part, Seam, join, links};

@@ -61,19 +61,40 @@ impl<const N: usize> Part<N> {
 }
 
 /// Marks ghosts among the numbers of simplices.
-const GHOST: u32 = NONE - 1;
+pub(super) const GHOST: u32 = NONE - 1;
+
+/// Returns the vertices of a facet in ascending order, as a [`BorderFacet`] has them.
+pub(super) fn sorted<const D: usize>(facet: [u32; D]) -> [u32; 3] {
+    let mut vertices = [NONE; 3];
+    vertices.iter_mut().zip(facet).for_each(|(to, v)| *to = v);
+    vertices.sort_unstable();
+    vertices
+}
+
+/// What is around a [`Core`](super::Core): the other simplices of its tile.
+pub(super) struct Around<'a> {
+    /// Whether the simplex in each slot is one of them, rather than where the core is.
+    pub(super) is_around: &'a [bool],
+    /// The facets of the core, by those of these simplices that are the same.
+    pub(super) across: &'a FxHashMap<u32, u32>,
+    /// The number of simplices of the core.
+    pub(super) before: u32,
+}
 
 /// Adds the finite simplices of a triangulation of which the vertex with the lowest index is one of the tile's own,
 /// and the facets of the hull likewise. Vertex *v* has the index `indices[v]`, and `names` turns it to what simplices and
-/// hull are to have. The arrays are those of the triangulation.
+/// hull are to have. The arrays are those of the triangulation. If there is a core, numbers begin after its simplices.
+///
+/// Returns the number of the simplex in each slot; [`GHOST`] and [`NONE`] for those that are not in the part.
 pub(super) fn fill<const D: usize, const N: usize>(
     part: &mut Part<N>,
     triangulation: <Dimension<D> as Incremental<D>>::Triangulation,
     indices: &[u32],
     names: impl Fn(u32) -> u32,
-    of: Vertices<'_>,
+    (of, around): (Vertices<'_>, Option<&Around<'_>>),
     winding: Winding,
-) where
+) -> Vec<u32>
+where
     Dimension<D>: Tiled<D, N>,
     Euclidean: Geometry<D, N>,
 {
@@ -85,10 +106,14 @@ pub(super) fn fill<const D: usize, const N: usize>(
     };
     let slots = Dimension::<D>::slots(&triangulation);
     let mut number = vec![NONE; slots as usize];
-    let mut count = 0;
+    let before = around.map_or(0, |around| around.before);
+    let mut count = before;
     in_pieces(slots, &mut |piece| {
         for t in piece {
             let Some(simplex) = Dimension::<D>::simplex(&triangulation, t) else { continue };
+            if around.is_some_and(|around| !around.is_around[t as usize]) {
+                continue;
+            }
             match Dimension::<D>::ghost_facet(simplex, infinite) {
                 Some(facet) => {
                     number[t as usize] = GHOST;
@@ -117,6 +142,10 @@ pub(super) fn fill<const D: usize, const N: usize>(
             let (simplex, mut across) = (simplices[t], neighbors[t]);
             for (k, f) in across.iter_mut().enumerate() {
                 let other = number[(*f >> 2) as usize];
+                if let Some(&of_core) = around.and_then(|around| around.across.get(&(4 * t as u32 + k as u32))) {
+                    *f = of_core;
+                    continue;
+                }
                 if other < GHOST {
                     *f = 4 * other + (*f & 3);
                     continue;
@@ -127,19 +156,19 @@ pub(super) fn fill<const D: usize, const N: usize>(
                 if other == GHOST && facet.iter().any(|&v| v < of.own) {
                     continue;
                 }
-                let mut vertices = [NONE; 3];
-                vertices.iter_mut().zip(facet).for_each(|(to, v)| *to = index(v));
-                vertices.sort_unstable();
+                let vertices = sorted(facet.map(index));
                 let [place, entry] = Dimension::<D>::place(this, k, winding);
                 part.borders.push(BorderFacet { vertices, place, entry });
             }
-            simplices[this as usize] = Dimension::<D>::to_mesh(simplex.map(&names), winding);
-            neighbors[this as usize] = Dimension::<D>::entries(across, winding);
+            let at = (this - before) as usize;
+            simplices[at] = Dimension::<D>::to_mesh(simplex.map(&names), winding);
+            neighbors[at] = Dimension::<D>::entries(across, winding);
         }
     });
-    simplices.truncate(count as usize);
-    neighbors.truncate(count as usize);
+    simplices.truncate((count - before) as usize);
+    neighbors.truncate((count - before) as usize);
     (part.simplices, part.neighbors) = (simplices, neighbors);
+    number
 }
 
 /// Joins the parts of all tiles to the mesh of all `points` points.
@@ -274,9 +303,7 @@ impl<T> Seam<T> {
 
     /// Adds a facet of the hull, in any order of its vertices: it has one side.
     pub fn add_hull<const D: usize>(&mut self, facet: [u32; D]) {
-        let mut vertices = [NONE; 3];
-        vertices.iter_mut().zip(facet).for_each(|(to, v)| *to = v);
-        vertices.sort_unstable();
+        let vertices = sorted(facet);
         // That of a facet whose simplex knows that nothing is beyond it stays.
         if self.0.remove(&vertices).is_none() {
             self.0.insert(vertices, None);

@@ -2,7 +2,7 @@
 
 use super::{
     dim::Provable,
-    part::Seam,
+    part::{Seam, sorted},
     piece::{Link, Piece},
     survey::Survey,
 };
@@ -10,7 +10,6 @@ use crate::{
     dimension::Dimension,
     error::Error,
     geometry::{self, Euclidean, Geometry},
-    index::NONE,
     input::points::Points,
     verify::{Check, Defect, Outcome, Report, input::Input, report::Findings},
 };
@@ -109,9 +108,9 @@ where
         let input = Input::new(Points::F64(points), None, None, Dimension::<D>::dimension_of)?;
         let is_own = |v: u32| owners[v as usize] == tile;
         let mut found: Vec<(Check, Findings)> = Vec::new();
-        let mut sorted = Findings::default();
+        let mut order = Findings::default();
         if !indices.is_sorted_by(|a, b| a < b) {
-            sorted.add(|| Defect::in_mesh("the indices of its points do not ascend".into()));
+            order.add(|| Defect::in_mesh("the indices of its points do not ascend".into()));
         }
         let sides = Dimension::<D>::check_simplices(
             &input,
@@ -121,8 +120,8 @@ where
                 found.push((check, findings));
             },
         );
-        let is_whole = sorted.is_empty() && !found.iter().any(|(check, f)| *check == Check::Indices && !f.is_empty());
-        found.push((Check::Indices, sorted));
+        let is_whole = order.is_empty() && !found.iter().any(|(check, f)| *check == Check::Indices && !f.is_empty());
+        found.push((Check::Indices, order));
         self.simplices += part.simplices.len();
         self.has_neighbors &= links.is_some();
         if is_whole {
@@ -213,10 +212,7 @@ where
                 stated: stated.remove(&place[0]),
             };
             let facet: [u32; D] = geometry::facet(&indices, side.k);
-            let mut vertices = [NONE; 3];
-            vertices.iter_mut().zip(facet).for_each(|(to, v)| *to = v);
-            vertices.sort_unstable();
-            if let Some(other) = self.seam.add(vertices, side.clone()) {
+            if let Some(other) = self.seam.add(sorted(facet), side.clone()) {
                 side.check(&other, self.has_neighbors, found);
             }
         }

@@ -26,7 +26,8 @@ where
     pub fn to_bytes(&self) -> Vec<u8> {
         let cloud = &self.cloud;
         let mut bytes = Writer(Vec::new());
-        bytes.words(&[TILE, D as u32, self.number, self.steps, cloud.own, cloud.common, cloud.owners.len() as u32]);
+        bytes.words(&[TILE, D as u32, self.number, self.steps, u32::from(self.is_shell)]);
+        bytes.words(&[cloud.own, cloud.common, cloud.owners.len() as u32]);
         bytes.numbers(cloud.points.as_flattened());
         bytes.words(&cloud.indices);
         bytes.words(&cloud.owners);
@@ -80,8 +81,8 @@ where
         if bytes.word()? != TILE || bytes.word()? as usize != D {
             return bad("it is not a tile of this dimension");
         }
-        let (number, steps, own, common) = (bytes.word()?, bytes.word()?, bytes.word()?, bytes.word()?);
-        let foreign = bytes.word()?;
+        let (number, steps, is_shell) = (bytes.word()?, bytes.word()?, bytes.word()? != 0);
+        let (own, common, foreign) = (bytes.word()?, bytes.word()?, bytes.word()?);
         let count = own.checked_add(foreign).unwrap_or(u32::MAX);
         bytes.count(count, 8 * D + 4)?;
         let points = bytes.points(own)?;
@@ -100,7 +101,7 @@ where
         if common > foreign || tile.cloud.owners.len() != foreign as usize {
             return bad("it has a point twice");
         }
-        (tile.cloud.common, tile.steps) = (common, steps);
+        (tile.cloud.common, tile.steps, tile.is_shell) = (common, steps, is_shell);
         for bounds in &mut tile.bounds {
             let is_there = bytes.word()? != 0;
             let corners = [bytes.point()?, bytes.point()?];

@@ -26,7 +26,7 @@ use crate::{
     stats::{Phase, Stats},
 };
 use rustc_hash::{FxHashMap, FxHashSet};
-use std::{iter, sync::Arc};
+use std::sync::Arc;
 
 /// One of the tiles that points are split into, which triangulates its own points and those of others that it gets to
 /// know.
@@ -77,6 +77,8 @@ where
     /// For each of its own points the one that it duplicates, or [`NONE`].
     pub(super) duplicate_of: Vec<u32>,
     pub(super) triangulation: Option<Triangulation<D>>,
+    /// Whether the tile knows only the points of its shell.
+    pub(super) is_shell: bool,
     /// How the tile was computed.
     pub(super) stats: Stats,
     /// For each tile, the box of its own points.
@@ -88,7 +90,7 @@ where
 pub(super) type Triangulation<const D: usize> = <Dimension<D> as Incremental<D>>::Triangulation;
 
 /// The points that a tile knows, which are its vertices.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Cloud<const D: usize> {
     /// First the tile's own points, in the order of their indices, then the
     /// common ones of other tiles, then others.
@@ -181,6 +183,7 @@ where
             },
             duplicate_of: Vec::new(),
             triangulation: None,
+            is_shell: false,
             stats: Stats::new(Backend::Cpu),
         })
     }
@@ -219,13 +222,15 @@ where
     ///
     /// # Errors
     ///
-    /// Returns the errors of [`step`](Self::step) if the tile was [suspended](Self::suspend).
+    /// Returns the errors of [`step`](Self::step) if the tile was [suspended](Self::suspend), and [`Error::BadTile`] if its
+    /// [core](Self::take_core) was taken.
     pub fn finish(mut self) -> Result<Part<N>, Error> {
+        self.check_whole()?;
         let (mut part, triangulation) = self.end()?;
         if let Some(triangulation) = triangulation {
             let indices = &self.cloud.indices;
             let name = |v: u32| indices[v as usize];
-            part::fill::<D, N>(&mut part, triangulation, indices, name, self.vertices(), self.options.winding);
+            part::fill::<D, N>(&mut part, triangulation, indices, name, (self.vertices(), None), self.options.winding);
         }
         Ok(part)
     }
@@ -236,18 +241,11 @@ where
     ///
     /// Returns the errors of [`finish`](Self::finish).
     pub fn into_piece(mut self) -> Result<Piece<D, N>, Error> {
-        let (mut part, triangulation) = self.end()?;
-        if let Some(triangulation) = triangulation {
-            let (indices, winding) = (&self.cloud.indices, self.options.winding);
-            part::fill::<D, N>(&mut part, triangulation, indices, |v| v, self.vertices(), winding);
-        }
-        let Cloud { points, indices, own, owners, .. } = self.cloud;
-        let owners: Vec<u32> = iter::repeat_n(self.number, own as usize).chain(owners).collect();
-        Ok(Piece::new(self.number, &points, &indices, &owners, part))
+        self.take_core()?.complete(self)
     }
 
     /// Ends the steps: returns the part without simplices, and the triangulation if there is one.
-    fn end(&mut self) -> Result<(Part<N>, Option<Triangulation<D>>), Error> {
+    pub(super) fn end(&mut self) -> Result<(Part<N>, Option<Triangulation<D>>), Error> {
         let threads = self.options.threads;
         parallel::with_threads(threads, |threads| self.awake(threads))?;
         let duplicates = self.cloud.indices.iter().copied().zip(self.duplicate_of.iter().copied());
@@ -256,13 +254,13 @@ where
     }
 
     /// Frees the triangulation, which takes ten times the memory of the points. The next step in which points arrive,
-    /// or the end, makes it again.
+    /// or the end, makes it again: of few points if the [core](Self::take_core) was taken.
     pub fn suspend(&mut self) {
         self.triangulation = None;
     }
 
     /// Triangulates all points that the tile knows if it has begun and has no triangulation.
-    fn awake(&mut self, threads: Threads) -> Result<(), Error> {
+    pub(super) fn awake(&mut self, threads: Threads) -> Result<(), Error> {
         let is_begun = self.steps > 1 && self.cloud.own > 0;
         if is_begun && self.triangulation.is_none() { self.triangulate(threads) } else { Ok(()) }
     }
@@ -273,7 +271,7 @@ where
     }
 
     /// Returns whose the vertices are.
-    fn vertices(&self) -> Vertices<'_> {
+    pub(super) fn vertices(&self) -> Vertices<'_> {
         Vertices { number: self.number, own: self.cloud.own, common: self.cloud.common, owners: &self.cloud.owners }
     }
 

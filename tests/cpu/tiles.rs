@@ -12,7 +12,7 @@ use gdel::{
         geometry::{Euclidean, Geometry},
         mesh::canonical,
     },
-    tiles::{self, Link, Message, Part, Piece, Plan, Proof, Provable, Seam, Survey, Tile, Tiled, join},
+    tiles::{self, Core, Link, Message, Part, Piece, Plan, Proof, Provable, Seam, Survey, Tile, Tiled, join},
     verify::{Check, Report},
     verify2d, verify3d,
 };
@@ -175,6 +175,121 @@ fn the_order_of_messages_does_not_matter() {
     }
 }
 
+/// Takes all steps of tiles of which the cores are taken after some step from the second one on, as bytes. Returns the
+/// pieces, and the numbers of simplices in the cores.
+fn pieces_by_cores<const D: usize, const N: usize>(
+    points: &[[f64; D]],
+    tiles: u32,
+    every: u32,
+    from: u32,
+) -> (Vec<Piece<D, N>>, usize)
+where
+    Dimension<D>: Tiled<D, N>,
+    Euclidean: Geometry<D, N>,
+    for<'a> Points<'a, D>: From<&'a [[f64; D]]>,
+{
+    let plan = Plan::new(Survey::<D>::new(points, 0, every).unwrap(), tiles);
+    let parts = (0..).zip(plan.split(points, 0));
+    let mut all: Vec<(Tile<D, N>, Option<Vec<u8>>)> =
+        parts.map(|(i, (own, indices))| (Tile::new(plan.clone(), i, own, indices).unwrap(), None)).collect();
+    let mut received = vec![Vec::new(); all.len()];
+    for step in 1.. {
+        let mut sent = vec![Vec::new(); all.len()];
+        for (from_tile, (tile, core)) in (0..).zip(&mut all) {
+            for (to, message) in tile.step(std::mem::take(&mut received[from_tile as usize])).unwrap() {
+                sent[to as usize].push((from_tile, message));
+            }
+            if core.is_none() && step >= from + from_tile % 2 {
+                let bytes = core.insert(Vec::new());
+                tile.take_core().unwrap().write(bytes).unwrap();
+                assert!(matches!(tile.take_core(), Err(Error::BadTile { .. })), "only once");
+                *tile = Tile::from_bytes(plan.clone(), &tile.to_bytes()).unwrap();
+            }
+        }
+        if step > from + 1 && sent.iter().all(Vec::is_empty) {
+            break;
+        }
+        received = sent;
+    }
+    let mut inside = 0;
+    let pieces = all.into_iter().map(|(tile, core)| {
+        let bytes = core.unwrap();
+        let core = Core::<D, N>::read(&mut &bytes[..], bytes.len() as u64).unwrap().unwrap();
+        inside += core.simplices();
+        core.complete(tile).unwrap()
+    });
+    (pieces.collect(), inside)
+}
+
+/// Checks that pieces are those of tiles of which no cores were taken.
+fn check_cores<const D: usize, const N: usize>(
+    name: &str,
+    points: &[[f64; D]],
+    every: u32,
+    simplices: fn(MeshOf<D>) -> Vec<[u32; N]>,
+) -> usize
+where
+    Dimension<D>: Provable<D, N>,
+    Euclidean: Geometry<D, N>,
+    for<'a> Points<'a, D>: From<&'a [[f64; D]]>,
+{
+    let mut expected = canonical(&simplices(cpu::delaunay::<D>(points.into(), &Options::default()).unwrap()));
+    expected.sort_unstable();
+    let mut most = 0;
+    for (tiles, from) in [(1, 2), (3, 2), (3, 3), (8, 2)] {
+        let (pieces, inside) = pieces_by_cores::<D, N>(points, tiles, every, from);
+        let names = |piece: &Piece<D, N>| -> Vec<[u32; N]> {
+            piece.part.simplices.iter().map(|simplex| simplex.map(|v| piece.indices[v as usize])).collect()
+        };
+        let mut found = canonical(&pieces.iter().flat_map(names).collect::<Vec<_>>());
+        found.sort_unstable();
+        assert!(found == expected, "{name}, {tiles} tiles, cores taken after {from} steps");
+        let report = proof(&linked(pieces.into_iter().map(|piece| (piece, Vec::new())).collect()));
+        assert!(report.passed(), "{name}, {tiles} tiles, cores taken after {from} steps:\n{report}");
+        if tiles > 1 {
+            most = most.max(inside);
+        }
+    }
+    most
+}
+
+fn cores3(name: &str, points: &[[f64; 3]], every: u32) -> usize {
+    check_cores::<3, 4>(name, points, every, |mesh| mesh.tetrahedra)
+}
+
+fn cores2(name: &str, points: &[[f64; 2]], every: u32) -> usize {
+    check_cores::<2, 3>(name, points, every, |mesh| mesh.triangles)
+}
+
+#[test]
+fn pieces_of_cores_and_their_shells_are_those_of_whole_tiles() {
+    let uniform = generate3d(Distribution3::Uniform, 20_000, 1);
+    let inside = cores3("uniform", &uniform, 100);
+    assert!(inside > 40_000, "{inside} simplices in cores");
+    for distribution in Distribution3::ALL {
+        cores3(distribution.name(), &generate3d(distribution, 2000, 2), 100);
+    }
+    for distribution in Distribution2::ALL {
+        cores2(distribution.name(), &generate2d(distribution, 5000, 2), 100);
+    }
+    cores3("grid", &clouds::shuffled(&clouds::grid(12), 1), 100);
+    cores3("duplicates", &clouds::thirty_percent_duplicates(3000), 50);
+    cores3("clusters", &clouds::clusters_at_1e_9_spacing(2000), 50);
+    cores3("terrain", &clouds::terrain(30, 0.3, 0.1), 50);
+    cores3("points in a plane", &clouds::grid(6).iter().map(|&[x, y, _]| [x, y, 1.0]).collect::<Vec<_>>(), 10);
+    let far: Vec<[f64; 3]> = uniform.iter().map(|p| p.map(|x| 1e9 + x)).collect();
+    cores3("far away", &far[..5000], 100);
+    for scale in [1e-300, 1e-160, 1e150, 1e300] {
+        let scaled: Vec<[f64; 3]> = uniform[..2000].iter().map(|p| p.map(|x| scale * x)).collect();
+        cores3("absurd scale", &scaled, 100);
+    }
+    for case in degenerate::cases(100) {
+        let mut random = Pcg64Mcg::seed_from_u64(case);
+        cores3(&format!("case {case}"), &degenerate::points(&mut random, 60), 3);
+        cores2(&format!("case {case}"), &degenerate::points(&mut random, 60), 3);
+    }
+}
+
 /// Returns the pieces of tiles with their links.
 fn pieces<const D: usize, const N: usize>(points: &[[f64; D]], tiles: u32) -> Vec<(Piece<D, N>, Vec<Link>)>
 where
@@ -183,7 +298,11 @@ where
     for<'a> Points<'a, D>: From<&'a [[f64; D]]>,
 {
     let pieces = tiles_by_bytes(points, tiles, 0).into_iter().map(|tile| (tile.into_piece().unwrap(), Vec::new()));
-    let mut pieces: Vec<(Piece<D, N>, Vec<Link>)> = pieces.collect();
+    linked(pieces.collect())
+}
+
+/// Adds the links.
+fn linked<const D: usize, const N: usize>(mut pieces: Vec<(Piece<D, N>, Vec<Link>)>) -> Vec<(Piece<D, N>, Vec<Link>)> {
     let mut seam = Seam::default();
     for tile in 0..pieces.len() {
         for (from, link) in seam.add_rim(tile as u32, &pieces[tile].0.rim()) {

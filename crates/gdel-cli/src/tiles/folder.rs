@@ -70,6 +70,8 @@ impl Folder {
             Err(TryLockError::Error(_)) => {}
         }
         folder._lock = Some(file);
+        // Whoever was killed has left its temporary files.
+        folder.remove_where(|_, name| name.starts_with(".gdel-") && name.ends_with(".tmp"))?;
         Ok(folder)
     }
 
@@ -87,14 +89,21 @@ impl Folder {
         self.path.join("unfinished").join(name)
     }
 
-    /// Removes what an unfinished run keeps, and tiles that are finished.
+    /// Removes what an unfinished run keeps, and what is finished.
     pub(super) fn clear(&self) -> Result<(), Failure> {
-        for folder in [&self.path, &self.work("")] {
+        self.remove_where(|is_work, name| match is_work {
+            true => name != "lock",
+            false => name.starts_with("tile-") || name.starts_with("mesh."),
+        })
+    }
+
+    /// Removes files whose names are as told: of the folder, or, where the first argument is true, of the unfinished run.
+    fn remove_where(&self, is_removed: impl Fn(bool, &str) -> bool) -> Result<(), Failure> {
+        for (folder, is_work) in [(&self.path, false), (&self.work(""), true)] {
             for entry in fs::read_dir(folder).map_err(read_error(folder))? {
                 let path = entry.map_err(read_error(folder))?.path();
-                let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-                let is_ours = folder != &self.path || name.starts_with("tile-") || name.starts_with("mesh.");
-                if is_ours && name != "lock" && path.is_file() {
+                let name = path.file_name().unwrap_or_default().to_string_lossy();
+                if path.is_file() && is_removed(is_work, &name) {
                     remove(&path)?;
                 }
             }

@@ -105,8 +105,10 @@ struct State {
     order: Order,
     tiles: u32,
     points: u64,
-    /// The step that is taken next; `None` if all are.
-    step: Option<u32>,
+    /// The number of steps that all tiles have taken.
+    steps: u32,
+    /// Whether no tile has sent anything in the last one.
+    is_quiet: bool,
     /// Points that were sent, each as often as it was.
     sent: u64,
 }
@@ -172,7 +174,7 @@ where
             let tiles = split::tiles(points, order.memory);
             let plan = Arc::new(Plan::new(survey, tiles));
             folder.write(PLAN, &plan.to_bytes())?;
-            let state = State { order, tiles, points, step: Some(1), sent: 0 };
+            let state = State { order, tiles, points, steps: 0, is_quiet: false, sent: 0 };
             let run = Run { folder, state, plan, options: request.options.clone() };
             clock.time("split", |show| split::split::<D, N>(&run, &inputs, show))?;
             run.save()?;
@@ -181,8 +183,8 @@ where
     };
     clock.time("steps", |show| steps::take::<D, N>(&mut run, show))?;
     clock.time("pieces", |show| pieces::write::<M, D, N>(&run, show))?;
-    let index = clock.time("links", |show| pieces::link::<M, D, N>(&run, show))?;
-    let State { tiles, sent, .. } = run.state;
+    let index = clock.time("links", |show| pieces::link(&run, show))?;
+    let State { tiles, steps, sent, .. } = run.state;
     run.folder.finish(&index)?;
     let proof = request.verify.then(|| prove::<M, D, N>(path)).transpose()?;
     let report = Report {
@@ -191,6 +193,7 @@ where
         dimension: index.dimension,
         simplices: Simplices::new(D, index.simplices),
         tiles,
+        steps,
         sent,
         resumed,
         verified: proof.as_ref().map(Proof::passed),
@@ -239,6 +242,8 @@ struct Report {
     #[serde(flatten)]
     simplices: Simplices,
     tiles: u32,
+    /// Steps of the exchange of points.
+    steps: u32,
     /// Points that tiles have sent each other.
     sent: u64,
     /// Whether the run went on with what an earlier one had done.
@@ -276,7 +281,10 @@ impl fmt::Display for Report {
         if self.dimension < full {
             write!(f, "\ndimension       {}, so there are no {name}", self.dimension)?;
         }
-        write!(f, "\n{name:<15} {count}\ntiles           {}, which sent each other {} points", self.tiles, self.sent)?;
+        write!(f, "\n{name:<15} {count}\ntiles           {}", self.tiles)?;
+        if self.sent > 0 {
+            write!(f, ", which sent each other {} points in {} steps", self.sent, self.steps)?;
+        }
         let total: f64 = self.seconds.values().sum();
         write!(f, "\nseconds         {total:.3}")?;
         for (i, stage) in ["survey", "split", "steps", "pieces", "links"].into_iter().enumerate() {

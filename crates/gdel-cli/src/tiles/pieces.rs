@@ -2,20 +2,24 @@
 
 use super::{
     Run, TileFormat,
-    folder::{Index, KIND, read_error, write_error},
-    steps::load,
+    folder::{Index, KIND, read_error, remove, write_error},
+    steps::{core_file, last_file, load},
 };
 use crate::failure::Failure;
 use gdel::{
     internals::{
+        cpu::Incremental,
         dimension::Dimension,
         geometry::{Euclidean, Geometry},
     },
-    tiles::{Link, Rim, Seam, Tiled},
+    tiles::{Core, Link, Rim, Seam, Tiled},
 };
 use gdel_io::{Mesh, append_links, files::write_file, write_pvtu, write_tile, write_tile_vtu};
 use serde::{Deserialize, Serialize};
-use std::fs::{self, OpenOptions};
+use std::{
+    fs::{self, File, OpenOptions},
+    io::{BufReader, Read, Seek, SeekFrom, Write},
+};
 
 /// What is known of a piece that is written.
 #[derive(Serialize, Deserialize)]
@@ -56,9 +60,9 @@ where
     Dimension<D>: Tiled<D, N>,
     Euclidean: Geometry<D, N>,
 {
-    let (_, whole) = load::<D, N>(run, tile, u32::MAX.min(1000))?;
     let failure = |source| Failure::Points { path: run.folder.work(""), source };
-    let piece = whole.into_piece().map_err(failure)?;
+    let shell = last_file(&run.folder, tile, run.state.steps + 1);
+    let piece = read_core::<D, N>(run, tile)?.complete(load(run, &shell)?).map_err(failure)?;
     let format = run.state.order.format;
     write_file(&run.folder.work(&format.file(tile)), |to| match format {
         TileFormat::Npz => write_tile::<M, D, N>(to, &piece),
@@ -66,17 +70,27 @@ where
     })?;
     run.folder.write(&rim_file(tile), &piece.rim().to_bytes())?;
     let (simplices, duplicates) = (piece.part.simplices.len() as u64, piece.part.duplicates.len() as u64);
-    run.folder.write_json(&run.folder.work(&counts_file(tile)), &Counts { simplices, duplicates })
+    run.folder.write_json(&run.folder.work(&counts_file(tile)), &Counts { simplices, duplicates })?;
+    remove(&run.folder.work(&core_file(tile)))?;
+    remove(&run.folder.work(&shell))
 }
 
-/// Links the pieces, and gives their files their names.
-pub(super) fn link<M: Mesh<D, N>, const D: usize, const N: usize>(
-    run: &Run<D>,
-    show: &dyn Fn(f64),
-) -> Result<Index, Failure>
+fn read_core<const D: usize, const N: usize>(run: &Run<D>, tile: u32) -> Result<Core<D, N>, Failure>
 where
     Dimension<D>: Tiled<D, N>,
     Euclidean: Geometry<D, N>,
+{
+    let path = run.folder.work(&core_file(tile));
+    let file = File::open(&path).map_err(read_error(&path))?;
+    let size = file.metadata().map_err(read_error(&path))?.len();
+    let core = Core::read(&mut BufReader::with_capacity(1 << 20, file), size).map_err(read_error(&path))?;
+    core.map_err(|error| run.folder.damaged(&core_file(tile), error))
+}
+
+/// Links the pieces, and gives their files their names.
+pub(super) fn link<const D: usize>(run: &Run<D>, show: &dyn Fn(f64)) -> Result<Index, Failure>
+where
+    Dimension<D>: Incremental<D>,
 {
     let (folder, state) = (&run.folder, &run.state);
     let mut links: Vec<Vec<Link>> = vec![Vec::new(); state.tiles as usize];
@@ -107,7 +121,7 @@ where
         if !finished.exists() {
             if state.order.format == TileFormat::Npz {
                 links.sort_unstable_by_key(|link| link.place);
-                append::<M, D, N>(run, tile, &links)?;
+                append(run, tile, &links)?;
             }
             fs::rename(&unfinished, &finished).map_err(write_error(&finished))?;
         }
@@ -124,18 +138,26 @@ where
     Ok(index)
 }
 
-/// Appends its links to the file of a tile. A file in which an earlier run was interrupted is written anew.
-fn append<M: Mesh<D, N>, const D: usize, const N: usize>(run: &Run<D>, tile: u32, links: &[Link]) -> Result<(), Failure>
-where
-    Dimension<D>: Tiled<D, N>,
-    Euclidean: Geometry<D, N>,
-{
+/// Appends its links to the file of a tile, of which the end is kept for a run that is interrupted meanwhile.
+fn append<const D: usize>(run: &Run<D>, tile: u32, links: &[Link]) -> Result<(), Failure> {
+    /// The directory of the archive is in so many bytes at its end, and begins where links are written.
+    const END: u64 = 1 << 16;
     let path = run.folder.work(&run.state.order.format.file(tile));
-    let mark = run.folder.work(&format!("linking-{tile:05}"));
-    if mark.exists() {
-        write_one::<M, D, N>(run, tile)?;
+    let mut file = OpenOptions::new().read(true).write(true).open(&path).map_err(read_error(&path))?;
+    let kept = format!("end-{tile:05}");
+    if run.folder.work(&kept).exists() {
+        let bytes = run.folder.read(&kept)?;
+        let (start, end) = bytes.split_first_chunk().ok_or_else(|| run.folder.damaged(&kept, "too short"))?;
+        let start = u64::from_le_bytes(*start);
+        let restored = file.set_len(start + end.len() as u64).and_then(|()| file.seek(SeekFrom::Start(start)));
+        restored.and_then(|_| file.write_all(end)).map_err(write_error(&path))?;
+    } else {
+        let mut bytes = Vec::new();
+        let start = file.metadata().map_err(read_error(&path))?.len().saturating_sub(END);
+        bytes.extend(start.to_le_bytes());
+        let found = file.seek(SeekFrom::Start(start)).and_then(|_| file.read_to_end(&mut bytes));
+        found.map_err(read_error(&path))?;
+        run.folder.write(&kept, &bytes)?;
     }
-    fs::write(&mark, []).map_err(write_error(&mark))?;
-    let file = OpenOptions::new().read(true).write(true).open(&path).map_err(read_error(&path))?;
-    append_links(file, links).map_err(write_error(&path))
+    append_links(&file, links).map_err(write_error(&path))
 }

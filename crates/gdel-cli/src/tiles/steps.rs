@@ -13,6 +13,7 @@ use gdel::{
     },
     tiles::{Tile, Tiled},
 };
+use gdel_io::files::write_file;
 use std::sync::Arc;
 
 /// Returns the name of the file of a tile after a step.
@@ -20,28 +21,31 @@ pub(super) fn tile_file(tile: u32, step: u32) -> String {
     format!("tile-{tile:05}-{step:03}")
 }
 
+/// Returns the name of the file with the core of a tile.
+pub(super) fn core_file(tile: u32) -> String {
+    format!("core-{tile:05}")
+}
+
 /// Returns the name of the file with what a tile has sent in a step.
 pub(super) fn outbox(tile: u32, step: u32) -> String {
     format!("sent-{tile:05}-{step:03}")
 }
 
-/// Reads a tile after its last step before `step`. Returns the name of its file, too.
-pub(super) fn load<const D: usize, const N: usize>(
-    run: &Run<D>,
-    tile: u32,
-    step: u32,
-) -> Result<(String, Tile<D, N>), Failure>
+/// Returns the name of the file of a tile after its last step before `step`.
+pub(super) fn last_file(folder: &Folder, tile: u32, step: u32) -> String {
+    let mut names = (0..step).rev().map(|step| tile_file(tile, step));
+    names.find(|name| folder.work(name).exists()).unwrap_or_else(|| tile_file(tile, 0))
+}
+
+/// Reads a tile.
+pub(super) fn load<const D: usize, const N: usize>(run: &Run<D>, name: &str) -> Result<Tile<D, N>, Failure>
 where
     Dimension<D>: Tiled<D, N>,
     Euclidean: Geometry<D, N>,
 {
-    let names = (0..step).rev().map(|step| tile_file(tile, step));
-    let name = names.into_iter().find(|name| run.folder.work(name).exists());
-    let name = name.unwrap_or_else(|| tile_file(tile, 0));
-    let bytes = run.folder.read(&name)?;
-    let whole = Tile::with_options_from_bytes(Arc::clone(&run.plan), &bytes, run.options.clone());
-    let whole = whole.map_err(|error| run.folder.damaged(&name, error))?;
-    Ok((name, whole))
+    let bytes = run.folder.read(name)?;
+    let tile = Tile::with_options_from_bytes(Arc::clone(&run.plan), &bytes, run.options.clone());
+    tile.map_err(|error| run.folder.damaged(name, error))
 }
 
 /// Takes all steps that are left.
@@ -50,7 +54,8 @@ where
     Dimension<D>: Tiled<D, N>,
     Euclidean: Geometry<D, N>,
 {
-    while let Some(step) = run.state.step {
+    while !run.state.is_quiet {
+        let step = run.state.steps + 1;
         for tile in 0..run.state.tiles {
             if !run.folder.work(&outbox(tile, step)).exists() {
                 take_one::<D, N>(run, tile, step)?;
@@ -64,7 +69,7 @@ where
             is_quiet &= run.folder.receivers(&outbox(tile, step))?.is_empty();
         }
         run.state.sent += sent::<D>(&run.folder, run.state.tiles, step)?;
-        run.state.step = if is_quiet { None } else { Some(step + 1) };
+        (run.state.steps, run.state.is_quiet) = (step, is_quiet);
         run.save()?;
         (0..run.state.tiles).try_for_each(|tile| remove(&run.folder.work(&outbox(tile, step - 1))))?;
     }
@@ -100,11 +105,18 @@ where
     if step > 2 && received.is_empty() {
         return folder.send::<D>(&outbox(tile, step), &[]);
     }
-    let (name, mut whole) = load::<D, N>(run, tile, step)?;
-    let sent = whole.step(received).map_err(|error| match error {
+    let name = last_file(folder, tile, step);
+    let mut whole = load::<D, N>(run, &name)?;
+    let failure = |error| match error {
         Error::BadMessage { .. } => folder.damaged(&name, error),
         source => Failure::Points { path: folder.work(""), source },
-    })?;
+    };
+    let sent = whole.step(received).map_err(failure)?;
+    // What no other tile can change is not needed for further steps.
+    if step == 2 {
+        let core = whole.take_core().map_err(failure)?;
+        write_file(&folder.work(&core_file(tile)), |to| core.write(to))?;
+    }
     whole.suspend();
     folder.write(&tile_file(tile, step), &whole.to_bytes())?;
     folder.send(&outbox(tile, step), &sent)?;

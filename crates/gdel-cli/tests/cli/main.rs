@@ -10,6 +10,7 @@ mod derived;
 mod inputs;
 mod outputs;
 mod refine;
+mod tiles;
 mod tin;
 mod verify;
 mod weights;
