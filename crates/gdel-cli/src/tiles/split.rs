@@ -26,12 +26,12 @@ use std::{
 const PIECE: usize = 1 << 21;
 
 /// Bytes of memory per point of a tile while it is triangulated.
-const PER_POINT: u64 = 700;
+const PER_POINT: u64 = 500;
 
 /// Of at least so many points one is known to all tiles, …
 const EVERY: u64 = 1000;
 /// … and about so many points are, if there are as many.
-const COMMON: u64 = 4096;
+const COMMON: u64 = 256;
 
 /// Returns the number of tiles for so many points and so much memory.
 pub(super) fn tiles(points: u64, memory: u64) -> u32 {

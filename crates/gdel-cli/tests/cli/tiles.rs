@@ -23,7 +23,7 @@ fn contents(folder: &Path) -> Vec<(String, Vec<u8>)> {
 
 /// Writes points that a distribution has, as `points.npy`.
 fn generate(folder: &Path, distribution: &str, count: &str, dim: &str) {
-    succeeds(folder, &["generate", distribution, count, "--dim", dim, "-o", "points.npy"]);
+    succeeds(folder, &["generate", distribution, count, "--dim", dim, "--force", "-o", "points.npy"]);
 }
 
 #[test]
