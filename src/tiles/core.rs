@@ -400,8 +400,16 @@ where
 }
 
 fn write_words(to: &mut dyn Write, words: &[u32]) -> io::Result<()> {
-    words.iter().try_for_each(|word| to.write_all(&word.to_le_bytes()))
+    let mut bytes = Vec::new();
+    words.chunks(BLOCK).try_for_each(|block| {
+        bytes.clear();
+        bytes.extend(block.iter().flat_map(|word| word.to_le_bytes()));
+        to.write_all(&bytes)
+    })
 }
+
+/// So many numbers, or rows of them, are written or read at a time.
+const BLOCK: usize = 1 << 12;
 
 /// Reads rows of numbers.
 fn read_rows<T, const M: usize, const SIZE: usize>(
@@ -409,11 +417,10 @@ fn read_rows<T, const M: usize, const SIZE: usize>(
     count: u32,
     decode: fn([u8; SIZE]) -> T,
 ) -> io::Result<Vec<[T; M]>> {
-    const ROWS: usize = 1 << 12;
     let mut rows = Vec::with_capacity(count as usize);
-    let mut bytes = vec![0; ROWS * M * SIZE];
+    let mut bytes = vec![0; BLOCK * M * SIZE];
     while rows.len() < count as usize {
-        let piece = &mut bytes[..(count as usize - rows.len()).min(ROWS) * M * SIZE];
+        let piece = &mut bytes[..(count as usize - rows.len()).min(BLOCK) * M * SIZE];
         from.read_exact(piece)?;
         let numbers = piece.as_chunks::<SIZE>().0;
         rows.extend(numbers.chunks_exact(M).map(|row| std::array::from_fn(|k| decode(row[k]))));

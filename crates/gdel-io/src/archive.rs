@@ -1,7 +1,7 @@
 //! ZIP archives, which NumPy's `.npz` and 3MF are.
 
 use crate::surface::MARK;
-use std::io::{self, Read, Seek, Write};
+use std::io::{self, BufWriter, Read, Seek, Write};
 use zip::{
     CompressionMethod, ZipWriter,
     write::{SimpleFileOptions, StreamWriter},
@@ -58,8 +58,15 @@ pub(super) fn append(
 ) -> io::Result<()> {
     let mut archive = ZipWriter::new_append(archive)?;
     archive.start_file(name, options(CompressionMethod::Stored))?;
-    write(&mut archive)?;
+    write_blocks(&mut archive, write)?;
     archive.finish()?.flush()
+}
+
+/// Writes in large blocks, since each write updates a checksum.
+fn write_blocks(to: impl Write, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+    let mut blocks = BufWriter::with_capacity(1 << 16, to);
+    write(&mut blocks)?;
+    blocks.flush()
 }
 
 /// 64-bit sizes allow for meshes of any size. Without dates, equal meshes give equal files.
@@ -82,7 +89,7 @@ impl<'w> Archive<'w> {
         write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> io::Result<()> {
         self.0.start_file(name, options(compression))?;
-        write(&mut self.0)
+        write_blocks(&mut self.0, write)
     }
 }
 
