@@ -33,8 +33,13 @@ use serde::{Deserialize, Serialize};
 use std::{
     collections::BTreeMap,
     fmt,
+    num::NonZeroUsize,
     path::{Path, PathBuf},
-    sync::Arc,
+    sync::{
+        Arc, Mutex, PoisonError,
+        atomic::{AtomicU32, Ordering},
+    },
+    thread,
     time::{Instant, UNIX_EPOCH},
 };
 
@@ -104,6 +109,8 @@ struct Order {
 struct State {
     order: Order,
     tiles: u32,
+    /// How many tiles are in memory at a time.
+    workers: u32,
     points: u64,
     /// The number of steps that all tiles have taken.
     steps: u32,
@@ -112,6 +119,9 @@ struct State {
     /// Points that were sent, each as often as it was.
     sent: u64,
 }
+
+/// So many threads work on one tile: much of the work on a tile is done by one.
+const THREADS: usize = 4;
 
 const STATE: &str = "state.json";
 const PLAN: &str = "plan";
@@ -128,6 +138,37 @@ impl<const D: usize> Run<D> {
     /// Notes how far the run has come.
     fn save(&self) -> Result<(), Failure> {
         self.folder.write_json(&self.folder.work(STATE), &self.state)
+    }
+}
+
+impl<const D: usize> Run<D> {
+    /// Calls `work` for each tile, for several at a time. Returns the first error after what has begun has ended.
+    fn for_each_tile(
+        &self,
+        show: &(dyn Fn(f64) + Sync),
+        work: impl Fn(u32) -> Result<(), Failure> + Sync,
+    ) -> Result<(), Failure> {
+        let (next, done) = (AtomicU32::new(0), AtomicU32::new(0));
+        let failure = Mutex::new(None);
+        let work_on = || {
+            loop {
+                let tile = next.fetch_add(1, Ordering::Relaxed);
+                if tile >= self.state.tiles {
+                    return;
+                }
+                if let Err(error) = work(tile) {
+                    failure.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
+                    next.store(self.state.tiles, Ordering::Relaxed);
+                    return;
+                }
+                show(f64::from(done.fetch_add(1, Ordering::Relaxed) + 1) / f64::from(self.state.tiles));
+            }
+        };
+        thread::scope(|scope| {
+            (1..self.state.workers).for_each(|_| drop(scope.spawn(work_on)));
+            work_on();
+        });
+        failure.into_inner().unwrap_or_else(PoisonError::into_inner).map_or(Ok(()), Err)
     }
 }
 
@@ -163,19 +204,24 @@ where
     let folder = Folder::create(path, request.force)?;
     let state = folder.read_json::<State>(&folder.work(STATE))?.filter(|state| state.order == order);
     let resumed = state.is_some();
+    // Threads that are left work on other tiles.
+    let all = request.options.threads.or_else(|| thread::available_parallelism().ok());
+    let threads = all.and_then(|all| NonZeroUsize::new(all.get().min(THREADS)));
+    let options = Options { threads, ..request.options.clone() };
     let mut run = match state {
         Some(state) => {
             let plan = Plan::from_bytes(&folder.read(PLAN)?).map_err(|error| folder.damaged(PLAN, error))?;
-            Run { folder, state, plan: Arc::new(plan), options: request.options.clone() }
+            Run { folder, state, plan: Arc::new(plan), options }
         }
         None => {
             folder.clear()?;
             let (survey, points) = clock.time("survey", |show| split::survey::<D>(&inputs, &order, show))?;
-            let tiles = split::tiles(points, order.memory);
+            let workers = all.map_or(1, |all| all.get().div_ceil(THREADS)) as u32;
+            let tiles = split::tiles(points, order.memory / u64::from(workers));
             let plan = Arc::new(Plan::new(survey, tiles));
             folder.write(PLAN, &plan.to_bytes())?;
-            let state = State { order, tiles, points, steps: 0, is_quiet: false, sent: 0 };
-            let run = Run { folder, state, plan, options: request.options.clone() };
+            let state = State { order, tiles, workers: workers.min(tiles), points, steps: 0, is_quiet: false, sent: 0 };
+            let run = Run { folder, state, plan, options };
             clock.time("split", |show| split::split::<D, N>(&run, &inputs, show))?;
             run.save()?;
             run
@@ -222,7 +268,7 @@ impl Clock {
     fn time<T>(
         &mut self,
         stage: &'static str,
-        work: impl FnOnce(&dyn Fn(f64)) -> Result<T, Failure>,
+        work: impl FnOnce(&(dyn Fn(f64) + Sync)) -> Result<T, Failure>,
     ) -> Result<T, Failure> {
         let progress = Progress::new(stage);
         let show = progress.reporter();

@@ -39,20 +39,19 @@ fn counts_file(tile: u32) -> String {
 /// Writes the pieces of all tiles that have none yet.
 pub(super) fn write<M: Mesh<D, N>, const D: usize, const N: usize>(
     run: &Run<D>,
-    show: &dyn Fn(f64),
+    show: &(dyn Fn(f64) + Sync),
 ) -> Result<(), Failure>
 where
     Dimension<D>: Tiled<D, N>,
     Euclidean: Geometry<D, N>,
 {
-    for tile in 0..run.state.tiles {
+    run.for_each_tile(show, |tile| {
         // The counts are written last.
-        if !run.folder.work(&counts_file(tile)).exists() {
-            write_one::<M, D, N>(run, tile)?;
+        if run.folder.work(&counts_file(tile)).exists() {
+            return Ok(());
         }
-        show(f64::from(tile + 1) / f64::from(run.state.tiles));
-    }
-    Ok(())
+        write_one::<M, D, N>(run, tile)
+    })
 }
 
 fn write_one<M: Mesh<D, N>, const D: usize, const N: usize>(run: &Run<D>, tile: u32) -> Result<(), Failure>
@@ -88,7 +87,7 @@ where
 }
 
 /// Links the pieces, and gives their files their names.
-pub(super) fn link<const D: usize>(run: &Run<D>, show: &dyn Fn(f64)) -> Result<Index, Failure>
+pub(super) fn link<const D: usize>(run: &Run<D>, show: &(dyn Fn(f64) + Sync)) -> Result<Index, Failure>
 where
     Dimension<D>: Incremental<D>,
 {

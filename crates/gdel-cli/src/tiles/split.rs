@@ -42,7 +42,7 @@ pub(super) fn tiles(points: u64, memory: u64) -> u32 {
 pub(super) fn survey<const D: usize>(
     inputs: &[Input],
     order: &Order,
-    show: &dyn Fn(f64),
+    show: &(dyn Fn(f64) + Sync),
 ) -> Result<(Survey<D>, u64), Failure>
 where
     Dimension<D>: Incremental<D>,
@@ -68,7 +68,7 @@ where
 /// points in earlier files. Returns the number of points.
 fn read_all<const D: usize>(
     inputs: &[Input],
-    show: &dyn Fn(f64),
+    show: &(dyn Fn(f64) + Sync),
     expected: u64,
     mut take: impl FnMut(Points<'_, D>, u32, usize) -> Result<Result<(), Failure>, Error>,
 ) -> Result<u64, Failure> {
@@ -107,7 +107,7 @@ fn moved(error: Error, before: usize) -> Error {
 pub(super) fn split<const D: usize, const N: usize>(
     run: &Run<D>,
     inputs: &[Input],
-    show: &dyn Fn(f64),
+    show: &(dyn Fn(f64) + Sync),
 ) -> Result<(), Failure>
 where
     Dimension<D>: Tiled<D, N>,

@@ -49,21 +49,25 @@ where
 }
 
 /// Takes all steps that are left.
-pub(super) fn take<const D: usize, const N: usize>(run: &mut Run<D>, show: &dyn Fn(f64)) -> Result<(), Failure>
+pub(super) fn take<const D: usize, const N: usize>(run: &mut Run<D>, show: &(dyn Fn(f64) + Sync)) -> Result<(), Failure>
 where
     Dimension<D>: Tiled<D, N>,
     Euclidean: Geometry<D, N>,
 {
     while !run.state.is_quiet {
         let step = run.state.steps + 1;
-        for tile in 0..run.state.tiles {
-            if !run.folder.work(&outbox(tile, step)).exists() {
-                take_one::<D, N>(run, tile, step)?;
+        // All is triangulated in the second step, and little in later ones, of which nobody knows the number.
+        let (before, share) = match step {
+            1 => (0.0, 0.1),
+            2 => (0.1, 0.6),
+            _ => (1.0 - 0.3 * 0.5f64.powi(step as i32 - 3), 0.15 * 0.5f64.powi(step as i32 - 3)),
+        };
+        run.for_each_tile(&|fraction| show(before + share * fraction), |tile| {
+            if run.folder.work(&outbox(tile, step)).exists() {
+                return Ok(());
             }
-            // Nobody knows how many there will be: five or six, mostly.
-            let done = f64::from(step - 1) + f64::from(tile + 1) / f64::from(run.state.tiles);
-            show(done / (done + 1.0).max(5.0));
-        }
+            take_one::<D, N>(run, tile, step)
+        })?;
         let mut is_quiet = step > 1;
         for tile in 0..run.state.tiles {
             is_quiet &= run.folder.receivers(&outbox(tile, step))?.is_empty();
