@@ -22,6 +22,10 @@ export const ENTRIES = [
   'treemap',
 ];
 
+/** Headings that say what kind of thing follows, on every page. */
+export const GENERIC =
+  /^(Parameters|Type Parameters|Returns|Throws|Call Signature|Extends|Extended by|Inherited from|Overrides|Examples?|Type Declaration|Implements|Implementation of|Deprecated|Default|See|Properties)$/;
+
 /** Returns the first sentence of what the sources say about an export. */
 function summaryOf(model) {
   const comment = model.comment ?? model.signatures?.[0]?.comment;

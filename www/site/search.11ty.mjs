@@ -2,14 +2,12 @@
 
 import { readFileSync } from 'node:fs';
 import MiniSearch from 'minisearch';
+import { GENERIC } from './reference.mjs';
 
 const fields = JSON.parse(
   readFileSync(new URL('../src/site/fields.json', import.meta.url), 'utf8'),
 );
 
-/** Headings of the reference that say what kind of thing follows, on every page. */
-const GENERIC =
-  /^(Parameters|Type Parameters|Returns|Throws|Call Signature|Extends|Extended by|Inherited from|Overrides|Examples?|Type Declaration)$/;
 /** Characters of text that a part of the reference is found by. */
 const REFERENCE_TEXT = 240;
 
