@@ -61,6 +61,7 @@ export function wireSearch(): void {
         ? results.slice(0, SHOWN).map(linkTo)
         : [create('p', {}, 'Nothing is found for these words.')]),
     );
+    found.dataset.words = words;
     found.hidden = false;
     status.textContent = things(results.length, 'result', 'results');
   };
