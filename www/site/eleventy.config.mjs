@@ -23,7 +23,7 @@
 // A block of Markdown that begins with ```js run is a program of its own. tests/site.test.mjs runs it in a browser, where what
 // it logs must be what its comments `// → …` say, in order.
 
-import { rmSync } from 'node:fs';
+import { readFileSync, rmSync } from 'node:fs';
 import { InputPathToUrlTransformPlugin } from '@11ty/eleventy';
 import shiki from '@shikijs/markdown-it';
 import anchor from 'markdown-it-anchor';
@@ -65,7 +65,7 @@ function boxes(markdown) {
   const fence = rules.fence ?? markdown.renderer.rules.fence;
   rules.fence = (...args) => `<div class="code">${fence(...args)}</div>\n`;
   rules.table_open = () =>
-    '<div class="scroll" tabindex="0" role="region" aria-label="Table"><table>\n';
+    '<div class="scroll" tabindex="0" role="group" aria-label="Table"><table>\n';
   rules.table_close = () => '</table></div>\n';
 }
 
@@ -89,6 +89,14 @@ export default async function configure(eleventy) {
       .use(anchor, { slugify, tabIndex: false }),
   );
 
+  // The package has this one as well.
+  const arrays = readFileSync(new URL('../../web/docs/arrays.md', import.meta.url), 'utf8');
+  eleventy.addTemplate('guide/arrays.md', arrays, {
+    title: 'How points map to arrays',
+    short: 'Arrays',
+    description: 'What is where in the arrays of a mesh, with pictures and recipes.',
+    order: 8,
+  });
   eleventy.addFilter('headings', headings);
   eleventy.addFilter('of', (pages, entry, member) =>
     pages.filter(({ data }) => data.entry === entry && data.member === member),

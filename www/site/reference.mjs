@@ -70,7 +70,8 @@ export async function writeReference() {
     hideBreadcrumbs: true,
     hidePageHeader: true,
     parametersFormat: 'table',
-    validation: { notExported: false },
+    // Entries name types and errors of the main one, which are no exports of theirs.
+    validation: { notExported: false, invalidLink: false },
     // The build of the package checks types.
     skipErrorChecking: true,
     logLevel: 'Warn',

@@ -25,16 +25,31 @@ const guides = readdirSync(join(www, 'site/guide')).filter((name) => name.endsWi
 /** A page of each kind, with the words for its picture. */
 const KINDS = {
   guides: 'guide/',
-  guide: 'guide/first-steps/',
+  guide: 'guide/answers/',
   exactness: 'guide/exactness/',
-  errors: 'guide/errors/',
   examples: 'examples/',
   api: 'api/',
-  entry: 'api/gdel-wasm/',
-  class: 'api/gdel-wasm/classes/Mesh3/',
-  function: 'api/gdel-wasm/functions/delaunay3d/',
+  class: 'api/gdel-wasm/classes/SpanningTree/',
   benchmarks: 'benchmarks/',
 };
+/** Pages with long words, code or tables. */
+const LONG = {
+  errors: 'guide/errors/',
+  switching: 'guide/switching/',
+  entry: 'api/gdel-wasm/',
+  mesh: 'api/gdel-wasm/classes/Mesh3/',
+};
+/** What newcomers ask for, and the part of a guide that has a program for it to copy. */
+const TASKS = {
+  'Interpolate my weather stations on a map.': 'What is the value between stations?',
+  'Make a collider for this scan.': 'What is the collider for a scan?',
+  'Triangulate a polygon with holes.': 'What are the triangles of a polygon with holes?',
+  'Clip Voronoi cells to a rectangle, from CSV.':
+    'What are the Voronoi cells in a rectangle, from CSV?',
+  'Find the nearest city to a click.': 'Which city is nearest to a click?',
+};
+/** In lines, for such a program. */
+const SHORT = 15;
 /** In bytes, gzipped, for the first view of a page. */
 const BUDGET = 500e3;
 
@@ -156,6 +171,16 @@ test('the guide on errors has every code', () => {
   assert.deepEqual(headings.map(([, code]) => code).sort(), codes.sort());
 });
 
+test('a short program does what newcomers ask for', () => {
+  const parts = read(join(www, 'site/guide/answers.md')).split(/^## /m);
+  for (const [task, heading] of Object.entries(TASKS)) {
+    const [program] = programsOf(parts.find((part) => part.startsWith(`${heading}\n`)) ?? '');
+    assert.ok(program, task);
+    const lines = program.code.trimEnd().split('\n').length;
+    assert.ok(lines <= SHORT, `${task} ${lines} lines`);
+  }
+});
+
 describe('in a browser', () => {
   const here = site();
 
@@ -170,21 +195,23 @@ describe('in a browser', () => {
     await place.close();
   });
 
-  for (const colorScheme of ['light', 'dark']) {
-    test(`pages are accessible, quiet and light-weight in ${colorScheme} colours`, async () => {
-      const page = await openSite(here, { colorScheme });
-      for (const [name, path] of Object.entries(KINDS)) {
-        await visit(page, here.url + path);
-        const weight = weightOf(page.requests, here.url);
-        console.log(`${(weight / 1e3).toFixed(0).padStart(5)} kB ${path}`);
-        assert.ok(weight < BUDGET, `${path}: ${weight} bytes`);
-        await pictureOf(page, `site-${name}-${colorScheme}`);
-        await expectAccessible(page, `${path}, ${colorScheme}`);
+  test('pages are accessible in light and dark colours, quiet and light-weight', async () => {
+    const page = await openSite(here, { reducedMotion: 'reduce' });
+    for (const [name, path] of Object.entries(KINDS)) {
+      await visit(page, here.url + path);
+      const weight = weightOf(page.requests, here.url);
+      console.log(`${(weight / 1e3).toFixed(0).padStart(5)} kB ${path}`);
+      assert.ok(weight < BUDGET, `${path}: ${weight} bytes`);
+      for (const theme of ['light', 'dark']) {
+        await page.locator(`:root[data-theme=${theme}]`).waitFor();
+        await pictureOf(page, `site-${name}-${theme}`);
+        await expectAccessible(page, `${path}, ${theme}`);
+        await page.click('#theme');
       }
-      assert.deepEqual(new Set(page.problems), new Set([BLOCKED]));
-      await page.context().close();
-    });
-  }
+    }
+    assert.deepEqual(new Set(page.problems), new Set([BLOCKED]));
+    await page.context().close();
+  });
 
   test('on a phone no page is wider than the screen', async () => {
     const page = await openSite(here, {
@@ -193,7 +220,7 @@ describe('in a browser', () => {
       hasTouch: true,
     });
     const wide = [];
-    for (const [name, path] of Object.entries(KINDS)) {
+    for (const [name, path] of Object.entries({ ...KINDS, ...LONG })) {
       await visit(page, here.url + path);
       const width = await page.evaluate(() => document.documentElement.scrollWidth);
       if (width > 390) wide.push(`${path}: ${width}`);

@@ -54,8 +54,11 @@ function chartOf(table) {
       type: 'log',
       label: unit === 's' ? 'seconds' : 'milliseconds',
       labelArrow: 'none',
+      labelAnchor: 'center',
+      nice: true,
       grid: true,
-      tickFormat: (tick) => (/^[125]/.test(String(tick).replace(/^0\.0*/, '')) ? String(tick) : ''),
+      ticks: 5,
+      tickFormat: (tick) => tick.toLocaleString('en-US'),
     },
     y: { domain: rows, label: null, tickFormat: (row) => labels.get(row), tickSize: 0 },
     color: { domain: series, range: COLORS },
@@ -66,6 +69,8 @@ function chartOf(table) {
     ],
   });
   chart.setAttribute('role', 'img');
+  // A picture has one name; those of its parts would be read as well.
+  for (const part of chart.querySelectorAll('[aria-label]')) part.removeAttribute('aria-label');
   const legend = series.map((name, i) => ({
     name: name === unit ? '' : name,
     color: COLORS[i],
