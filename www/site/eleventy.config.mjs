@@ -14,7 +14,8 @@
 //
 //   title        required
 //   description  one sentence, for search engines, lists and the search
-//   script       a module for this page alone, such as /src/examples/weather.ts
+//   script       a module for this page alone, such as /src/examples/weather.ts, without `await` at its top level: because of
+//                one, Rolldown cuts all pages, also the demo, into more and smaller files
 //   style        a style sheet for this page alone, such as /src/examples/weather.css
 //
 // Links are addresses from the root (/guide/), which become relative, or files of the repository (repo:docs/answers.md). What is

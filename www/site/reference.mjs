@@ -70,6 +70,7 @@ export async function writeReference() {
     hideBreadcrumbs: true,
     hidePageHeader: true,
     parametersFormat: 'table',
+    indexFormat: 'table',
     // Entries name types and errors of the main one, which are no exports of theirs.
     validation: { notExported: false, invalidLink: false },
     // The build of the package checks types.

@@ -126,6 +126,7 @@ function dot([x, y]: Place, number: number): Element[] {
   return [circle, text];
 }
 
-await load2d();
-wireTies();
-drawRounding();
+load2d().then(() => {
+  wireTies();
+  drawRounding();
+});
