@@ -81,6 +81,8 @@ export default async function configure(eleventy) {
     langs: ['js', 'ts', 'python', 'rust', 'cpp', 'sh', 'json', 'html', 'css'],
     themes: { light: 'github-light-high-contrast', dark: 'github-dark-high-contrast' },
     defaultColor: false,
+    // The first line takes long, while grammars are compiled, and would lose its colours.
+    tokenizeTimeLimit: 0,
   });
   eleventy.amendLibrary('md', (markdown) =>
     markdown

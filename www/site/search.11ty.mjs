@@ -11,6 +11,9 @@ const fields = JSON.parse(
 /** Characters of text that a part of the reference is found by. */
 const REFERENCE_TEXT = 240;
 
+/** The signature of a function, and the tables of its parameters. */
+const SIGNATURE = /<blockquote>.*?<\/blockquote>|<h[456] .*$/gs;
+
 const textOf = (html) =>
   html
     .replace(/<[^>]+>/g, ' ')
@@ -31,13 +34,17 @@ function* partsOf({ data, url, content }) {
   for (const piece of pieces.slice(1)) {
     const [heading, level, id, name] = /^<h([23]) id="([^"]+)"[^>]*>(.*?)<\/h\1>/s.exec(piece);
     const part = textOf(name);
-    if (isReference && (level === '2' || GENERIC.test(part))) continue;
-    const text = textOf(piece.slice(heading.length));
+    // What is inherited is found where it comes from.
+    const isRepeated = GENERIC.test(part) || /<h\d id="inherited-from/.test(piece);
+    if (isReference && (level === '2' || isRepeated)) continue;
+    const body = piece.slice(heading.length).replace(SIGNATURE, '');
+    const text = textOf(body);
+    const [sentences = text] = body.match(/<p>.*?<\/p>/s) ?? [];
     yield {
       ...page,
       part,
       id: `${page.id}#${id}`,
-      about: text.slice(0, 160),
+      about: textOf(sentences).slice(0, 160),
       text: isReference ? text.slice(0, REFERENCE_TEXT) : text,
     };
   }
