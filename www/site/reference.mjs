@@ -30,13 +30,8 @@ export const GENERIC =
 function summaryOf(model) {
   const comment = model.comment ?? model.signatures?.[0]?.comment;
   const text = (comment?.summary ?? []).map((part) => part.text).join('');
-  return (
-    text
-      .replaceAll('`', '')
-      .replace(/\s+/g, ' ')
-      .match(/^.*?[.:;](?= |$)/)?.[0]
-      .replace(/[:;]$/, '.') ?? ''
-  );
+  const words = text.replace(/`|\*(?=\w)|(?<=\w)\*/g, '').replace(/\s+/g, ' ');
+  return /^.*?(\.(?= |$)|$)/.exec(words)[0];
 }
 
 /** Puts the data that the layouts show before the text of a page. */
