@@ -24,7 +24,7 @@ export const ENTRIES = [
 
 /** Headings that say what kind of thing follows, on every page. */
 export const GENERIC =
-  /^(Parameters|Type Parameters|Returns|Throws|Call Signature|Extends|Extended by|Inherited from|Overrides|Examples?|Type Declaration|Implements|Implementation of|Deprecated|Default|See|Properties)$/;
+  /^(Parameters|Type Parameters|Returns|Throws|Call Signature|Extends|Extended by|Inherited from|Overrides|Examples?|Type Declaration|Implements|Implementation of|Deprecated|Default|default|See|Properties)$/;
 
 /** Returns the first sentence of what the sources say about an export. */
 function summaryOf(model) {

@@ -27,10 +27,15 @@ const textOf = (html) =>
 
 /** Splits a page at its headings. */
 function* partsOf({ data, url, content }) {
-  const page = { title: data.title, kind: data.kind ?? '', part: '', id: url.slice(1) };
+  const page = { title: data.title, kind: data.kind ?? '', part: '', id: url.slice(1), page: '' };
   const isReference = url.startsWith('/api/');
   const pieces = content.split(/(?=<h[23] id=")/);
-  yield { ...page, about: data.description ?? '', text: isReference ? '' : textOf(pieces[0]) };
+  yield {
+    ...page,
+    page: data.title,
+    about: data.description ?? '',
+    text: isReference ? '' : textOf(pieces[0]),
+  };
   for (const piece of pieces.slice(1)) {
     const [heading, level, id, name] = /^<h([23]) id="([^"]+)"[^>]*>(.*?)<\/h\1>/s.exec(piece);
     const part = textOf(name);
@@ -45,7 +50,7 @@ function* partsOf({ data, url, content }) {
       part,
       id: `${page.id}#${id}`,
       about: textOf(sentences).slice(0, 160),
-      text: isReference ? text.slice(0, REFERENCE_TEXT) : text,
+      text: `${data.title} ${isReference ? text.slice(0, REFERENCE_TEXT) : text}`,
     };
   }
 }

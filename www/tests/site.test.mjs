@@ -42,7 +42,7 @@ const LONG = {
 };
 /** What newcomers ask for, and the part of a guide that has a program for it to copy. */
 const TASKS = {
-  'Interpolate my weather stations on a map.': 'What is the value between stations?',
+  'Interpolate my weather stations on a map.': 'What is the value between weather stations?',
   'Make a collider for this scan.': 'What is the collider for a scan?',
   'Triangulate a polygon with holes.': 'What are the triangles of a polygon with holes?',
   'Clip Voronoi cells to a rectangle, from CSV.':
@@ -102,6 +102,9 @@ test('all links lead somewhere', () => {
     )) {
       const address = given.replaceAll('&amp;', '&');
       links++;
+      const inRepository = /^https:.*?\/blob\/main\/([^#]*)/.exec(address)?.[1];
+      if (inRepository && !existsSync(join(www, '..', inRepository)))
+        broken.push(`${path}: ${address}`);
       if (/^[a-z]+:/.test(address)) {
         if (!/^(https:\/\/[\w.-]+\/|data:)/.test(address)) broken.push(`${path}: ${address}`);
         continue;
