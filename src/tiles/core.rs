@@ -123,7 +123,7 @@ where
 
     /// Keeps these of the tile's own points, and all of other tiles.
     fn keep(&mut self, is_kept: &[bool]) {
-        let cloud = mem::replace(&mut self.cloud, Cloud::default());
+        let cloud = mem::take(&mut self.cloud);
         let mut number = vec![NONE; cloud.points.len()];
         let mut own = 0;
         for (v, &is_kept) in is_kept.iter().enumerate() {

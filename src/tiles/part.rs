@@ -98,38 +98,13 @@ where
     Dimension<D>: Tiled<D, N>,
     Euclidean: Geometry<D, N>,
 {
-    let infinite = of.infinite();
-    let index = |v: u32| indices[v as usize];
-    let is_ours = |simplex: &[u32; N]| {
-        let finite = simplex.iter().copied().filter(|&v| v != infinite);
-        !simplex.iter().any(|&v| of.is_foreign(v)) || finite.min_by_key(|&v| index(v)).is_some_and(|v| v < of.own)
-    };
     let slots = Dimension::<D>::slots(&triangulation);
-    let mut number = vec![NONE; slots as usize];
+    let index = |v: u32| indices[v as usize];
     let before = around.map_or(0, |around| around.before);
-    let mut count = before;
-    in_pieces(slots, &mut |piece| {
-        for t in piece {
-            let Some(simplex) = Dimension::<D>::simplex(&triangulation, t) else { continue };
-            if around.is_some_and(|around| !around.is_around[t as usize]) {
-                continue;
-            }
-            match Dimension::<D>::ghost_facet(simplex, infinite) {
-                Some(facet) => {
-                    number[t as usize] = GHOST;
-                    if is_ours(&simplex) {
-                        let mut hull = [NONE; N];
-                        hull.iter_mut().zip(facet).for_each(|(to, v)| *to = names(v));
-                        part.hull.push(hull);
-                    }
-                }
-                None if is_ours(&simplex) => {
-                    number[t as usize] = count;
-                    count += 1;
-                }
-                None => {}
-            }
-        }
+    let (number, count) = numbered::<D, N>(&triangulation, indices, (of, around), |facet| {
+        let mut hull = [NONE; N];
+        hull.iter_mut().zip(facet).for_each(|(to, v)| *to = names(v));
+        part.hull.push(hull);
     });
     let [mut simplices, mut neighbors] = Dimension::<D>::into_arrays(triangulation);
     // None moves to the right, so that each is still where it was when it is read.
@@ -169,6 +144,50 @@ where
     neighbors.truncate((count - before) as usize);
     (part.simplices, part.neighbors) = (simplices, neighbors);
     number
+}
+
+/// Returns the number of the simplex in each slot, [`GHOST`] and [`NONE`] where there is none in the part, and how many
+/// there are with those of the core. Facets of the hull that are in the part go to `add_hull`.
+fn numbered<const D: usize, const N: usize>(
+    triangulation: &<Dimension<D> as Incremental<D>>::Triangulation,
+    indices: &[u32],
+    (of, around): (Vertices<'_>, Option<&Around<'_>>),
+    mut add_hull: impl FnMut([u32; D]),
+) -> (Vec<u32>, u32)
+where
+    Dimension<D>: Tiled<D, N>,
+{
+    let infinite = of.infinite();
+    let is_ours = |simplex: &[u32; N]| {
+        let finite = simplex.iter().copied().filter(|&v| v != infinite);
+        let lowest = || finite.min_by_key(|&v| indices[v as usize]);
+        !simplex.iter().any(|&v| of.is_foreign(v)) || lowest().is_some_and(|v| v < of.own)
+    };
+    let slots = Dimension::<D>::slots(triangulation);
+    let mut number = vec![NONE; slots as usize];
+    let mut count = around.map_or(0, |around| around.before);
+    in_pieces(slots, &mut |piece| {
+        for t in piece {
+            let Some(simplex) = Dimension::<D>::simplex(triangulation, t) else { continue };
+            if around.is_some_and(|around| !around.is_around[t as usize]) {
+                continue;
+            }
+            match Dimension::<D>::ghost_facet(simplex, infinite) {
+                Some(facet) => {
+                    number[t as usize] = GHOST;
+                    if is_ours(&simplex) {
+                        add_hull(facet);
+                    }
+                }
+                None if is_ours(&simplex) => {
+                    number[t as usize] = count;
+                    count += 1;
+                }
+                None => {}
+            }
+        }
+    });
+    (number, count)
 }
 
 /// Joins the parts of all tiles to the mesh of all `points` points.

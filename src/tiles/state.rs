@@ -83,7 +83,7 @@ where
         }
         let (number, steps, is_shell) = (bytes.word()?, bytes.word()?, bytes.word()? != 0);
         let (own, common, foreign) = (bytes.word()?, bytes.word()?, bytes.word()?);
-        let count = own.checked_add(foreign).unwrap_or(u32::MAX);
+        let count = own.saturating_add(foreign);
         bytes.count(count, 8 * D + 4)?;
         let points = bytes.points(own)?;
         let others = bytes.points(foreign)?;

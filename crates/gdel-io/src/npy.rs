@@ -142,16 +142,14 @@ impl<'a> Array<'a> {
     }
 
     /// Returns the elements of an array of shape (n,) of unsigned 32-bit numbers.
-    pub(super) fn vector(mut self) -> Result<Vec<u32>, FormatError> {
-        if self.shape.len() != 1 || (self.kind, self.size) != (b'u', 4) {
-            let what = format!(
-                "a vector of type u4 expected, found type {}{} and shape {:?}",
-                self.kind as char, self.size, self.shape
-            );
+    pub(super) fn vector(&self) -> Result<Vec<u32>, FormatError> {
+        let (&[count], (b'u', 4)) = (&self.shape[..], (self.kind, self.size)) else {
+            let (kind, size) = (self.kind as char, self.size);
+            let what = format!("a vector of type u4 expected, found type {kind}{size} and shape {:?}", self.shape);
             return Err(FormatError::byte(self.offset, what));
-        }
-        self.shape.push(1);
-        Ok(self.rows::<_, 1, 4>(u32::from_le_bytes)?.into_flattened())
+        };
+        let column = Array { shape: vec![count, 1], ..*self };
+        Ok(column.rows::<_, 1, 4>(u32::from_le_bytes)?.into_flattened())
     }
 
     fn unsupported(&self, what: &str) -> FormatError {

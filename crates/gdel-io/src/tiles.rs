@@ -4,7 +4,7 @@ use crate::{
     FormatError, Mesh, archive, npy,
     npz::{array, open, read_array, read_indices},
     surface::{MARK, padded},
-    vtu::{self, Array},
+    vtu,
 };
 use gdel::{
     NONE,
@@ -117,13 +117,13 @@ pub fn write_tile_vtu<M: Mesh<D, N>, const D: usize, const N: usize>(
     let offsets = |to: &mut dyn Write| (1..=cells).try_for_each(|cell| to.write_all(&(N as u64 * cell).to_le_bytes()));
     let types = |to: &mut dyn Write| (0..cells).try_for_each(|_| to.write_all(&[M::NAMES.vtk]));
     let arrays = [
-        Array::written("PointData", "index", "UInt32", 1, points * 4, &indices),
-        Array::written("PointData", "tile", "UInt32", 1, points * 4, &tiles),
-        Array::written("PointData", "duplicate_of", "UInt32", 1, points * 4, &duplicates),
-        Array::written("Points", "Points", "Float64", 3, points * 24, &coordinates),
-        Array::written("Cells", "connectivity", "UInt32", 1, cells * N as u64 * 4, &connectivity),
-        Array::written("Cells", "offsets", "Int64", 1, cells * 8, &offsets),
-        Array::written("Cells", "types", "UInt8", 1, cells, &types),
+        vtu::Array::written("PointData", "index", "UInt32", 1, points * 4, &indices),
+        vtu::Array::written("PointData", "tile", "UInt32", 1, points * 4, &tiles),
+        vtu::Array::written("PointData", "duplicate_of", "UInt32", 1, points * 4, &duplicates),
+        vtu::Array::written("Points", "Points", "Float64", 3, points * 24, &coordinates),
+        vtu::Array::written("Cells", "connectivity", "UInt32", 1, cells * N as u64 * 4, &connectivity),
+        vtu::Array::written("Cells", "offsets", "Int64", 1, cells * 8, &offsets),
+        vtu::Array::written("Cells", "types", "UInt8", 1, cells, &types),
     ];
     vtu::write_arrays(to, piece.points.len(), piece.part.simplices.len(), &arrays)
 }

@@ -17,8 +17,11 @@ struct Layout<const D: usize> {
     /// Bytes of a point.
     stride: usize,
     count: u64,
-    decode: Box<dyn Fn(&[u8]) -> Result<PointCloud<D>, FormatError>>,
+    decode: Decode<D>,
 }
+
+/// Decodes the bytes of some points.
+type Decode<const D: usize> = Box<dyn Fn(&[u8]) -> Result<PointCloud<D>, FormatError>>;
 
 impl Input {
     /// Reads all points, at most `most` at a time, and hands each piece to `take`.
