@@ -221,12 +221,15 @@ pub(super) struct Rows {
 }
 
 impl Rows {
-    /// Returns the rows of a file of `size` bytes that begins with these bytes; `None` if its points are not one after
-    /// the other.
-    pub(super) fn new(beginning: &[u8], size: u64) -> Result<Option<Self>, FormatError> {
+    /// Returns the rows of a file of `size` bytes that begins with these bytes; `None` if they are not points of `D`
+    /// dimensions, one after the other.
+    pub(super) fn new<const D: usize>(beginning: &[u8], size: u64) -> Result<Option<Self>, FormatError> {
         let array = Array::parse_header(beginning)?;
         let (false, &[count, columns]) = (array.fortran_order, &array.shape[..]) else { return Ok(None) };
         let bytes = columns.checked_mul(array.size).and_then(|stride| Some((stride, stride.checked_mul(count)?)));
+        if columns != 3 && columns != D {
+            return Ok(None);
+        }
         let Some((stride, _)) = bytes.filter(|&(_, all)| array.offset as u64 + all as u64 == size) else {
             return Ok(None);
         };

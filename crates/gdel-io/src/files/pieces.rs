@@ -38,7 +38,7 @@ impl Input {
         take: &mut dyn FnMut(PointBuf<D>) -> Result<(), E>,
     ) -> Result<(), E> {
         let path = self.path();
-        let is_file = path != Path::new("-") && !path.is_dir();
+        let is_file = path.metadata().is_ok_and(|data| data.is_file() && data.len() > 0);
         if is_file && let Some((file, layout)) = layout::<D>(path, self.format)? {
             return read_rows(path, file, &layout, most, take);
         }
@@ -62,7 +62,7 @@ fn layout<const D: usize>(path: &Path, format: PointFormat) -> Result<Option<(Fi
         PointFormat::RawF64 => raw_layout(size, 24, raw::read_f64),
         PointFormat::Npy => {
             let beginning = beginning(&mut file, HEADER).map_err(in_file)?;
-            let rows = npy::Rows::new(&beginning, size);
+            let rows = npy::Rows::new::<D>(&beginning, size);
             rows.map_err(|source| FileError::Format { path: path.into(), source })?.map(|rows| Layout {
                 offset: rows.offset as u64,
                 stride: rows.stride,
@@ -81,7 +81,7 @@ fn layout<const D: usize>(path: &Path, format: PointFormat) -> Result<Option<(Fi
             })
         }
     };
-    Ok(layout.filter(|layout| layout.stride > 0).map(|layout| (file, layout)))
+    Ok(layout.map(|layout| (file, layout)))
 }
 
 /// Returns the layout of a file of bare coordinates.

@@ -11,6 +11,7 @@ mod glb;
 mod laz;
 mod meshes;
 mod outputs;
+mod pieces;
 mod points;
 mod rasters;
 mod shapes;
