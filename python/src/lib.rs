@@ -12,6 +12,7 @@ mod derived;
 mod errors;
 mod mesh;
 mod queries;
+mod tiles;
 mod tree;
 mod voronoi;
 
@@ -53,5 +54,16 @@ fn gdel_module(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(mesh::triangulate, module)?)?;
     module.add_function(wrap_pyfunction!(constrained::constrain, module)?)?;
     module.add_function(wrap_pyfunction!(constrained::tin, module)?)?;
+    for function in [
+        wrap_pyfunction!(tiles::tiles_survey, module)?,
+        wrap_pyfunction!(tiles::tiles_plan, module)?,
+        wrap_pyfunction!(tiles::tiles_split, module)?,
+        wrap_pyfunction!(tiles::tiles_begin, module)?,
+        wrap_pyfunction!(tiles::tiles_step, module)?,
+        wrap_pyfunction!(tiles::tiles_piece, module)?,
+        wrap_pyfunction!(tiles::tiles_links, module)?,
+    ] {
+        module.add_function(function)?;
+    }
     module.add_function(wrap_pyfunction!(mesh::restore, module)?)
 }

@@ -1,5 +1,6 @@
 //! What has to be known of all points before they are split.
 
+use super::bytes::{Reader, TOO_LONG, Writer};
 use crate::{
     cpu::Incremental,
     dimension::Dimension,
@@ -77,6 +78,41 @@ where
         self.frame = frame(self.frame.iter().copied().chain(other.frame));
     }
 
+    /// Returns the survey as bytes, the same on every machine.
+    pub fn to_bytes(&self) -> Vec<u8> {
+        let mut bytes = Writer(Vec::new());
+        bytes.words(&[SURVEY, D as u32, self.sample.len() as u32, self.frame.len() as u32]);
+        for p in self.sample.iter().chain(&self.frame) {
+            bytes.words(&[p.index]);
+            bytes.numbers(&p.at);
+        }
+        bytes.0
+    }
+
+    /// Reads a survey.
+    ///
+    /// # Errors
+    ///
+    /// Returns [`Error::BadMessage`] if that is not one, or one of another dimension.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, Error> {
+        let bad = |reason| Err(Error::BadMessage { reason });
+        let mut bytes = Reader(bytes);
+        if bytes.word()? != SURVEY || bytes.word()? as usize != D {
+            return bad("it is not a survey of this dimension");
+        }
+        let counts = [bytes.word()?, bytes.word()?];
+        let mut read = |count: u32| -> Result<Vec<Indexed<D>>, Error> {
+            let count = bytes.count(count, 4 + 8 * D)?;
+            (0..count).map(|_| Ok(Indexed { index: bytes.word()?, at: bytes.point()? })).collect()
+        };
+        let (sample, given) = (read(counts[0])?, read(counts[1])?);
+        if !bytes.0.is_empty() {
+            return Err(TOO_LONG);
+        }
+        let frame = frame(given.iter().copied());
+        if frame.len() == given.len() { Ok(Survey { sample, frame }) } else { bad("its points depend on each other") }
+    }
+
     /// Returns the affine dimension of all points: `D`, or less if they are coplanar, collinear or equal.
     pub fn dimension(&self) -> u8 {
         self.frame.len().saturating_sub(1) as u8
@@ -95,6 +131,8 @@ where
         self.sample.iter().map(|p| p.at)
     }
 }
+
+const SURVEY: u32 = u32::from_le_bytes(*b"gdtv");
 
 /// So many points nearly always span all dimensions that there are.
 const FEW: usize = 1 << 10;

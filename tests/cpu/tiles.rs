@@ -125,7 +125,8 @@ where
     let mut random = Pcg64Mcg::seed_from_u64(seed);
     let (one, other) = points.split_at(points.len() / 3);
     let mut survey = Survey::<D>::new(one, 0, 20).unwrap();
-    survey.merge(Survey::new(other, one.len() as u32, 20).unwrap());
+    let more = Survey::<D>::new(other, one.len() as u32, 20).unwrap().to_bytes();
+    survey.merge(Survey::from_bytes(&more).unwrap());
     let plan = Plan::new(survey, tiles).to_bytes();
     let plan = || Plan::<D>::from_bytes(&plan).unwrap();
     let mut all: Vec<Tile<D, N>> = Vec::new();
@@ -466,11 +467,13 @@ fn broken_bytes_are_errors() {
     assert_eq!(Plan::new(Survey::<3>::new(&points, 0, 10).unwrap(), u32::MAX).tiles(), 1 << 16);
     let mut random = Pcg64Mcg::seed_from_u64(1);
     let resting = tile_after_two_steps(&plan, &points);
-    for (bytes, kind) in [(plan.to_bytes(), 0), (hello.to_bytes(), 1), (resting, 2)] {
+    let survey = Survey::<3>::new(&points, 0, 10).unwrap().to_bytes();
+    for (bytes, kind) in [(plan.to_bytes(), 0), (hello.to_bytes(), 1), (resting, 2), (survey, 3)] {
         let is_plan = kind == 0;
         let is_read = |bytes: &[u8]| match kind {
             0 => Plan::<3>::from_bytes(bytes).is_ok(),
             1 => Message::<3>::from_bytes(bytes).is_ok(),
+            3 => Survey::<3>::from_bytes(bytes).is_ok(),
             _ => Tile::<3, 4>::from_bytes(plan.clone(), bytes).is_ok(),
         };
         assert!(is_read(&bytes));
