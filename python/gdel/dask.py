@@ -300,7 +300,8 @@ def _write(piece: Piece, path: str) -> tuple[int, int]:
     partial = f"{path}.{uuid.uuid4().hex[:8]}.tmp"
     try:
         with open(partial, "wb") as file:
-            np.savez(file, **piece)
+            arrays: dict[str, Any] = dict(piece)
+            np.savez(file, **arrays)
         os.replace(partial, path)
     finally:
         Path(partial).unlink(missing_ok=True)

@@ -31,7 +31,7 @@ def test_blocks_run(page, tmp_path, monkeypatch):
         exec(compile(block, page, "exec"), names)
 
 
-MODULES = ["", "._constrained", "._delaunay", "._voronoi", "._interpolate", "._derived", ".scipy"]
+MODULES = ["", "._constrained", "._delaunay", "._voronoi", "._interpolate", "._derived", ".dask", ".scipy"]
 
 
 @pytest.mark.parametrize("module", MODULES)
