@@ -14,10 +14,14 @@ use crate::{
     verify::{Check, Defect, Outcome, Report, input::Input, report::Findings},
 };
 use rustc_hash::FxHashMap;
-use std::collections::BTreeMap;
+use std::{
+    collections::BTreeMap,
+    sync::{Mutex, OnceLock, PoisonError},
+};
 
 /// Proves that pieces, whoever computed them, are together the Delaunay triangulation of their points: as
-/// [`verify3d`](crate::verify3d) and [`verify2d`](crate::verify2d) do for meshes, with one piece in memory at a time.
+/// [`verify3d`](crate::verify3d) and [`verify2d`](crate::verify2d) do for meshes, without all pieces in memory at a time.
+/// Threads may add pieces at the same time, in any order.
 ///
 /// The checks are those of these functions, except that of Euler's characteristic, without which they are enough, too.
 /// Numbers of simplices in the report are those within a piece.
@@ -32,13 +36,21 @@ use std::collections::BTreeMap;
 /// let mut tile = Tile::<2, 3>::new(plan, 0, points.to_vec(), vec![0, 1, 2, 3])?;
 /// tile.step(Vec::new())?;
 /// tile.step(Vec::new())?;
-/// let mut proof = Proof::default();
+/// let proof = Proof::default();
 /// proof.add(0, &tile.into_piece()?, Some(&[]))?;
 /// assert!(proof.finish().passed());
 /// # Ok::<(), gdel::Error>(())
 /// ```
 #[derive(Debug)]
 pub struct Proof<const D: usize, const N: usize> {
+    /// The corners of the first simplex.
+    first: OnceLock<[[f64; D]; N]>,
+    state: Mutex<State<D, N>>,
+}
+
+/// What is known of all pieces so far.
+#[derive(Debug)]
+struct State<const D: usize, const N: usize> {
     findings: BTreeMap<Check, Findings>,
     simplices: usize,
     /// Whether all pieces have stated their neighbours.
@@ -51,8 +63,6 @@ pub struct Proof<const D: usize, const N: usize> {
     /// Vertices in other tiles than their own.
     foreign: Vec<(u32, [f64; D])>,
     seam: Seam<Side<D, N>>,
-    /// The corners of the first simplex.
-    first: Option<[[f64; D]; N]>,
 }
 
 /// The side of a facet that is a simplex of a piece.
@@ -72,7 +82,7 @@ struct Side<const D: usize, const N: usize> {
 
 impl<const D: usize, const N: usize> Default for Proof<D, N> {
     fn default() -> Self {
-        Proof {
+        let state = State {
             findings: BTreeMap::new(),
             simplices: 0,
             has_neighbors: true,
@@ -81,8 +91,8 @@ impl<const D: usize, const N: usize> Default for Proof<D, N> {
             unused: Vec::new(),
             foreign: Vec::new(),
             seam: Seam::default(),
-            first: None,
-        }
+        };
+        Proof { first: OnceLock::new(), state: Mutex::new(state) }
     }
 }
 
@@ -98,7 +108,7 @@ where
     ///
     /// Returns [`Error::NotFinite`] and [`Error::TooManyPoints`], by the numbers of points in the piece, and
     /// [`Error::ValueCount`] if arrays of the piece do not have one entry per point.
-    pub fn add(&mut self, tile: u32, piece: &Piece<D, N>, links: Option<&[Link]>) -> Result<(), Error> {
+    pub fn add(&self, tile: u32, piece: &Piece<D, N>, links: Option<&[Link]>) -> Result<(), Error> {
         let Piece { points, indices, owners, part } = piece;
         for count in [indices.len(), owners.len()] {
             if count != points.len() {
@@ -122,26 +132,52 @@ where
         );
         let is_whole = order.is_empty() && !found.iter().any(|(check, f)| *check == Check::Indices && !f.is_empty());
         found.push((Check::Indices, order));
-        self.simplices += part.simplices.len();
-        self.has_neighbors &= links.is_some();
         if is_whole {
-            self.add_points(tile, piece, &input, &mut found);
-            self.add_covering(&input.points, &part.simplices, &mut found);
-            self.add_sides(tile, piece, sides, links.unwrap_or_default(), &mut found);
-        }
-        let place = format!("tile {tile}");
-        for (check, findings) in found {
-            self.findings.entry(check).or_default().extend([findings.within(&place)]);
+            found.extend(self.check_covering(&input.points, &part.simplices));
         }
         let own: Vec<[f64; D]> = (0..).zip(&input.points).filter(|&(v, _)| is_own(v)).map(|(_, &p)| p).collect();
         let survey = Survey::new(Points::F64(&own), 0, u32::MAX)?;
-        match &mut self.survey {
+        let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
+        state.simplices += part.simplices.len();
+        state.has_neighbors &= links.is_some();
+        if is_whole {
+            state.add_points(tile, piece, &input, &mut found);
+            state.add_sides(tile, piece, sides, links.unwrap_or_default(), &mut found);
+        }
+        let place = format!("tile {tile}");
+        for (check, findings) in found {
+            state.findings.entry(check).or_default().extend([findings.within(&place)]);
+        }
+        match &mut state.survey {
             Some(known) => known.merge(survey),
             none => *none = Some(survey),
         }
         Ok(())
     }
 
+    /// Checks that no simplex contains a point inside the first one of all pieces.
+    fn check_covering(&self, points: &[[f64; D]], simplices: &[[u32; N]]) -> Option<(Check, Findings)> {
+        let first = simplices.first()?.map(|v| points[v as usize]);
+        let mut others = simplices;
+        let inside = self.first.get_or_init(|| {
+            others = &simplices[1..];
+            first
+        });
+        Some((Check::Covering, Dimension::<D>::check_overlaps(*inside, points, others)))
+    }
+
+    /// Ends the proof: checks the hull, and that every point is a vertex.
+    pub fn finish(self) -> Report {
+        let state = self.state.into_inner().unwrap_or_else(PoisonError::into_inner);
+        state.finish(self.first.into_inner())
+    }
+}
+
+impl<const D: usize, const N: usize> State<D, N>
+where
+    Dimension<D>: Provable<D, N>,
+    Euclidean: Geometry<D, N>,
+{
     /// Notes which points belong to the tile and which are vertices, and checks duplicates.
     fn add_points(&mut self, tile: u32, piece: &Piece<D, N>, input: &Input<D>, found: &mut Vec<(Check, Findings)>) {
         let (mut duplicates, mut vertices) = (Findings::default(), Findings::default());
@@ -181,14 +217,6 @@ where
         found.extend([(Check::Duplicates, duplicates), (Check::Vertices, vertices)]);
     }
 
-    /// Checks that no simplex contains a point inside the first one of all pieces.
-    fn add_covering(&mut self, points: &[[f64; D]], simplices: &[[u32; N]], found: &mut Vec<(Check, Findings)>) {
-        let Some(&first) = simplices.first() else { return };
-        let others = if self.first.is_none() { &simplices[1..] } else { simplices };
-        let inside = *self.first.get_or_insert_with(|| first.map(|v| points[v as usize]));
-        found.push((Check::Covering, Dimension::<D>::check_overlaps(inside, points, others)));
-    }
-
     /// Checks the facets that a simplex of an earlier piece is on the other side of.
     fn add_sides(
         &mut self,
@@ -225,9 +253,9 @@ where
         found.push((Check::Neighbors, extra));
     }
 
-    /// Ends the proof: checks the hull, and that every point is a vertex.
-    pub fn finish(self) -> Report {
-        let Proof { mut findings, survey, simplices, has_neighbors, owned, unused, foreign, seam, first } = self;
+    /// Checks the hull, and that every point is a vertex.
+    fn finish(self, first: Option<[[f64; D]; N]>) -> Report {
+        let State { mut findings, survey, simplices, has_neighbors, owned, unused, foreign, seam } = self;
         let mut report = Report { dimension: survey.as_ref().map_or(0, Survey::dimension), ..Report::default() };
         report.counts.points = owned.count();
         let count = if D == 2 { &mut report.counts.facets } else { &mut report.counts.tetrahedra };

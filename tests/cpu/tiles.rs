@@ -18,6 +18,7 @@ use gdel::{
 };
 use rand::{RngExt, SeedableRng, seq::SliceRandom};
 use rand_pcg::Pcg64Mcg;
+use std::thread;
 
 const TILES: [u32; 5] = [1, 2, 3, 8, 64];
 
@@ -319,10 +320,14 @@ where
     Dimension<D>: Provable<D, N>,
     Euclidean: Geometry<D, N>,
 {
-    let mut proof = Proof::default();
-    for (tile, (piece, links)) in (0..).zip(pieces) {
-        proof.add(tile, piece, Some(links)).unwrap();
-    }
+    let proof = Proof::default();
+    // From several threads, in any order.
+    thread::scope(|scope| {
+        for (tile, (piece, links)) in (0..).zip(pieces) {
+            let proof = &proof;
+            scope.spawn(move || proof.add(tile, piece, Some(links)).unwrap());
+        }
+    });
     proof.finish()
 }
 

@@ -141,35 +141,39 @@ impl<const D: usize> Run<D> {
     }
 }
 
-impl<const D: usize> Run<D> {
-    /// Calls `work` for each tile, for several at a time. Returns the first error after what has begun has ended.
-    fn for_each_tile(
-        &self,
-        show: &(dyn Fn(f64) + Sync),
-        work: impl Fn(u32) -> Result<(), Failure> + Sync,
-    ) -> Result<(), Failure> {
-        let (next, done) = (AtomicU32::new(0), AtomicU32::new(0));
-        let failure = Mutex::new(None);
-        let work_on = || {
-            loop {
-                let tile = next.fetch_add(1, Ordering::Relaxed);
-                if tile >= self.state.tiles {
-                    return;
-                }
-                if let Err(error) = work(tile) {
-                    failure.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
-                    next.store(self.state.tiles, Ordering::Relaxed);
-                    return;
-                }
-                show(f64::from(done.fetch_add(1, Ordering::Relaxed) + 1) / f64::from(self.state.tiles));
+/// Calls `work` for each tile, for several at a time. Returns the first error after what has begun has ended.
+fn for_each_tile(
+    tiles: u32,
+    workers: u32,
+    show: &(dyn Fn(f64) + Sync),
+    work: impl Fn(u32) -> Result<(), Failure> + Sync,
+) -> Result<(), Failure> {
+    let (next, done) = (AtomicU32::new(0), AtomicU32::new(0));
+    let failure = Mutex::new(None);
+    let work_on = || {
+        loop {
+            let tile = next.fetch_add(1, Ordering::Relaxed);
+            if tile >= tiles {
+                return;
             }
-        };
-        thread::scope(|scope| {
-            (1..self.state.workers).for_each(|_| drop(scope.spawn(work_on)));
-            work_on();
-        });
-        failure.into_inner().unwrap_or_else(PoisonError::into_inner).map_or(Ok(()), Err)
-    }
+            if let Err(error) = work(tile) {
+                failure.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
+                next.store(tiles, Ordering::Relaxed);
+                return;
+            }
+            show(f64::from(done.fetch_add(1, Ordering::Relaxed) + 1) / f64::from(tiles));
+        }
+    };
+    thread::scope(|scope| {
+        (1..workers).for_each(|_| drop(scope.spawn(work_on)));
+        work_on();
+    });
+    failure.into_inner().unwrap_or_else(PoisonError::into_inner).map_or(Ok(()), Err)
+}
+
+/// Returns how many tiles so many threads work on at a time.
+fn workers(threads: Option<NonZeroUsize>) -> u32 {
+    threads.map_or(1, |threads| threads.get().div_ceil(THREADS)) as u32
 }
 
 /// The arguments of a run.
@@ -216,7 +220,7 @@ where
         None => {
             folder.clear()?;
             let (survey, points) = clock.time("survey", |show| split::survey::<D>(&inputs, &order, show))?;
-            let workers = all.map_or(1, |all| all.get().div_ceil(THREADS)) as u32;
+            let workers = workers(all);
             let tiles = split::tiles(points, order.memory / u64::from(workers));
             let plan = Arc::new(Plan::new(survey, tiles));
             folder.write(PLAN, &plan.to_bytes())?;

@@ -3,6 +3,7 @@
 use super::{
     Run, TileFormat,
     folder::{Index, KIND, read_error, remove, write_error},
+    for_each_tile,
     steps::{core_file, last_file, load},
 };
 use crate::failure::Failure;
@@ -45,7 +46,7 @@ where
     Dimension<D>: Tiled<D, N>,
     Euclidean: Geometry<D, N>,
 {
-    run.for_each_tile(show, |tile| {
+    for_each_tile(run.state.tiles, run.state.workers, show, |tile| {
         // The counts are written last.
         if run.folder.work(&counts_file(tile)).exists() {
             return Ok(());

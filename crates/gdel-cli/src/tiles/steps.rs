@@ -1,8 +1,9 @@
 //! The steps of tiles, of which one is in memory.
 
 use super::{
-    Run,
+    Run, State,
     folder::{Folder, remove},
+    for_each_tile,
 };
 use crate::failure::Failure;
 use gdel::{
@@ -62,7 +63,8 @@ where
             2 => (0.1, 0.6),
             _ => (1.0 - 0.3 * 0.5f64.powi(step as i32 - 3), 0.15 * 0.5f64.powi(step as i32 - 3)),
         };
-        run.for_each_tile(&|fraction| show(before + share * fraction), |tile| {
+        let State { tiles, workers, .. } = run.state;
+        for_each_tile(tiles, workers, &|fraction| show(before + share * fraction), |tile| {
             if run.folder.work(&outbox(tile, step)).exists() {
                 return Ok(());
             }

@@ -1,6 +1,9 @@
-//! The proof that a mesh in tiles is a Delaunay triangulation, with one tile in memory at a time.
+//! The proof that a mesh in tiles is a Delaunay triangulation, with a few tiles in memory at a time.
 
-use super::folder::{Folder, read_error};
+use super::{
+    folder::{Folder, read_error},
+    for_each_tile, workers,
+};
 use crate::{failure::Failure, progress::Progress};
 use gdel::{
     internals::{
@@ -15,6 +18,7 @@ use std::{
     fs::{self, File},
     io::BufReader,
     path::Path,
+    thread,
 };
 
 /// Proves the mesh in a folder.
@@ -30,14 +34,14 @@ where
     }
     let progress = Progress::new("verifying");
     let show = progress.reporter();
-    let mut proof = Proof::default();
-    for (tile, name) in (0..).zip(&index.tiles) {
-        let path = folder.finished(name);
+    let proof = Proof::default();
+    let (tiles, workers) = (index.tiles.len() as u32, workers(thread::available_parallelism().ok()));
+    for_each_tile(tiles, workers, &|fraction| show("verifying", fraction), |tile| {
+        let path = folder.finished(&index.tiles[tile as usize]);
         let (piece, links) = read::<M, D, N>(&path)?;
         let added = proof.add(tile, &piece, links.as_deref());
-        added.map_err(|source| Failure::Points { path, source })?;
-        show("verifying", f64::from(tile + 1) / index.tiles.len() as f64);
-    }
+        added.map_err(|source| Failure::Points { path, source })
+    })?;
     let report = proof.finish();
     if report.passed() && report.counts.points as u64 != index.points {
         let what = format!("the tiles have {} points, not {}", report.counts.points, index.points);
