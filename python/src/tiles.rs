@@ -147,6 +147,9 @@ pub(crate) fn tiles_begin<'py>(
 /// What a step makes of a tile: the tile, messages with the numbers of their receivers, and after the second step the core.
 type Stepped = (Vec<u8>, Vec<(u32, Vec<u8>)>, Option<Vec<u8>>);
 
+/// The same, for Python.
+type Taken<'py> = (Bytes<'py>, Vec<(u32, Bytes<'py>)>, Option<Bytes<'py>>);
+
 /// Takes a step of a tile, which is its `step`-th, with messages and the numbers of their senders.
 #[pyfunction]
 pub(crate) fn tiles_step<'py>(
@@ -156,7 +159,7 @@ pub(crate) fn tiles_step<'py>(
     received: Vec<(u32, Vec<u8>)>,
     step: u32,
     threads: Option<usize>,
-) -> PyResult<(Bytes<'py>, Vec<(u32, Bytes<'py>)>, Option<Bytes<'py>>)> {
+) -> PyResult<Taken<'py>> {
     fn take<const D: usize, const N: usize>(
         plan: &[u8],
         tile: &[u8],
