@@ -4,8 +4,8 @@ use super::{
     dimension::{Counts, Dimension, Triangulation, format_parser, read},
     failure::Failure,
     progress::Progress,
-    report::Flatness,
-    triangulate::{BackendName, StatsForm, print, triangulate},
+    report::{Flatness, StatsForm, print},
+    triangulate::{BackendName, triangulate},
 };
 use clap::{
     Args,

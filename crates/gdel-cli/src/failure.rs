@@ -1,8 +1,12 @@
 //! How commands fail.
 
 use clap::error::ErrorKind;
+use gdel::verify::Report;
 use gdel_io::files::{FileError, shown};
-use std::{io, path::PathBuf};
+use std::{
+    io,
+    path::{Path, PathBuf},
+};
 
 /// Why a command failed. The text is one line of printable characters.
 #[derive(Debug, thiserror::Error)]
@@ -31,4 +35,12 @@ pub(crate) enum Failure {
     WrongDevices(Vec<String>),
     #[error("standard output: {0}")]
     StandardOutput(#[from] io::Error),
+}
+
+/// Creates a failure that names `path` unless all checks passed.
+pub(super) fn conclude(path: &Path, report: &Report) -> Result<(), Failure> {
+    match report.failures().next() {
+        Some((check, defect, _)) => Err(Failure::Mesh { path: path.into(), what: format!("{check}: {defect}") }),
+        None => Ok(()),
+    }
 }

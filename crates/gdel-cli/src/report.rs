@@ -1,13 +1,18 @@
 //! The report of a run.
 
 use super::dimension::{Counts, Triangulation};
+use clap::ValueEnum;
 use gdel::{
     Backend, RefineStats,
     stats::{ExactCounts, Fallback, GpuStats, Phase, SplayStats},
 };
 use gdel_io::PointCloud;
 use serde::{Serialize, Serializer, ser::SerializeMap};
-use std::{fmt, time::Duration};
+use std::{
+    fmt::{self, Display},
+    io::{self, Write},
+    time::Duration,
+};
 
 /// The statistics of a run: as JSON by `serde`, for people by `Display`.
 #[derive(Serialize)]
@@ -214,5 +219,25 @@ impl fmt::Display for Flatness {
             _ => "all points are coplanar",
         };
         writeln!(f, "dimension       {} ({shape}, so there are no {simplices})", self.dimension)
+    }
+}
+
+/// How statistics are printed.
+#[derive(Clone, Copy, ValueEnum)]
+pub(super) enum StatsForm {
+    /// One JSON object
+    Json,
+}
+
+/// Prints the report of a run. Returns whether standard output is still open: after `gdel … | head
+/// -1` the files are written all the same.
+pub(super) fn print(form: Option<StatsForm>, report: &(impl Serialize + Display)) -> Result<bool, io::Error> {
+    let text = match form {
+        Some(StatsForm::Json) => serde_json::to_string(report)?,
+        None => report.to_string(),
+    };
+    match writeln!(io::stdout().lock(), "{text}") {
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(false),
+        written => written.map(|()| true),
     }
 }

@@ -6,7 +6,7 @@ use super::{
     dimension::{format_parser, read},
     failure::Failure,
     progress::Progress,
-    triangulate::print,
+    report::print,
 };
 use clap::{ArgGroup, Args, error::ErrorKind};
 use gdel::{

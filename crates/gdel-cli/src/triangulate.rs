@@ -3,9 +3,9 @@
 use super::{
     constrain::{self, Constrained, FillRule, Refine, Refined},
     dimension::{Dimension, Rescale, Triangulation, in_dimension},
-    failure::Failure,
+    failure::{Failure, conclude},
     progress::Progress,
-    report::Report,
+    report::{Report, StatsForm, print},
     tiles::{self, Request, Tiling},
     verify,
     weights::Weights,
@@ -27,10 +27,7 @@ use gdel_io::{
     PointCloud, PointFormat, ShapeFormat,
     files::{Input, Output},
 };
-use serde::Serialize;
 use std::{
-    fmt::Display,
-    io::{self, Write},
     iter,
     num::NonZeroUsize,
     ops::ControlFlow,
@@ -166,12 +163,6 @@ impl From<BackendName> for Backend {
     }
 }
 
-#[derive(Clone, Copy, ValueEnum)]
-pub(super) enum StatsForm {
-    /// One JSON object
-    Json,
-}
-
 fn parse_output(path: &str) -> Result<Output, String> {
     Output::new(Path::new(path)).map_err(|error| error.to_string())
 }
@@ -295,7 +286,7 @@ fn triangulate_constrained(arguments: &Arguments, read: Constrained, of_segments
     let proof = proof.map_err(failure)?;
     report(&refined, total, proof.as_ref().map(gdel::verify::Report::passed))?;
     if let Some(proof) = &proof {
-        verify::conclude(&arguments.input, proof)?;
+        conclude(&arguments.input, proof)?;
     }
     let _progress = Progress::new("writing");
     let mesh = found.inside_mesh();
@@ -348,7 +339,7 @@ fn run_with<M: Triangulation<D, N>, const D: usize, const N: usize>(
         if arguments.verify { Some(verify::proof(|| M::verify(points, &mesh)).map_err(failure)?) } else { None };
     report(&mesh, total, proof.as_ref().map(gdel::verify::Report::passed))?;
     if let Some(proof) = &proof {
-        verify::conclude(input.path(), proof)?;
+        conclude(input.path(), proof)?;
     }
     let _progress = Progress::new("writing");
     if !arguments.outputs.is_empty() {
@@ -380,17 +371,4 @@ fn timed<M>(
     let start = Instant::now();
     let mesh = run(&triangulator)?;
     Ok((mesh, start.elapsed()))
-}
-
-/// Prints the report of a run. Returns whether standard output is still open: after `gdel … | head
-/// -1` the files are written all the same.
-pub(super) fn print(form: Option<StatsForm>, report: &(impl Serialize + Display)) -> Result<bool, io::Error> {
-    let text = match form {
-        Some(StatsForm::Json) => serde_json::to_string(report)?,
-        None => report.to_string(),
-    };
-    match writeln!(io::stdout().lock(), "{text}") {
-        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(false),
-        written => written.map(|()| true),
-    }
 }

@@ -2,7 +2,7 @@
 
 use super::{
     dimension::{Dimension, Triangulation, format_parser, in_dimension, read},
-    failure::Failure,
+    failure::{Failure, conclude},
     progress::Progress,
     tiles,
 };
@@ -108,12 +108,4 @@ fn compare<const D: usize>(
 pub(super) fn proof<E>(verify: impl FnOnce() -> Result<Report, E>) -> Result<Report, E> {
     let _progress = Progress::new("verifying");
     verify()
-}
-
-/// Creates a failure that names `path` unless all checks passed.
-pub(super) fn conclude(path: &Path, report: &Report) -> Result<(), Failure> {
-    match report.failures().next() {
-        Some((check, defect, _)) => Err(Failure::Mesh { path: path.into(), what: format!("{check}: {defect}") }),
-        None => Ok(()),
-    }
 }

@@ -12,10 +12,9 @@ pub(crate) use verify::prove;
 
 use crate::{
     dimension::Triangulation,
-    failure::Failure,
+    failure::{Failure, conclude},
     progress::Progress,
-    triangulate::{StatsForm, print},
-    verify::conclude,
+    report::{StatsForm, print},
 };
 use clap::{Args, ValueEnum};
 use folder::Folder;
