@@ -1,0 +1,82 @@
+import { dependencies, devDependencies } from '../../package.json';
+import given from '../../programs/packages.json';
+
+/** A library that examples can import, by one of its names. */
+interface Package {
+  /** The file that has it, in www/vendor. */
+  vendor: string;
+  /** Other libraries that it imports. */
+  uses?: string[];
+  /** The path of its style sheet, for bundlers. */
+  style?: string;
+  /** Where it is on the web. Names in braces stand for versions. */
+  cdn: string;
+}
+
+const packages: Record<string, Package> = given;
+const versions: Record<string, string> = { ...dependencies, ...devDependencies };
+
+const urls = (files: Record<string, unknown>) =>
+  Object.fromEntries(
+    Object.entries(files).map(([path, url]) => [path.slice(path.lastIndexOf('/') + 1), url as string]),
+  );
+const vendors = urls(
+  import.meta.glob('../../vendor/*', { query: '?url&no-inline', import: 'default', eager: true }),
+);
+const data = urls(
+  import.meta.glob('../../programs/data/*', { query: '?url&no-inline', import: 'default', eager: true }),
+);
+
+const texts = new Map<string, Promise<string>>();
+
+/** The text of a file, which is fetched once. */
+function textAt(url: string): Promise<string> {
+  let text = texts.get(url);
+  if (!text) {
+    text = fetch(url).then((response) => response.text());
+    text.catch(() => texts.delete(url));
+    texts.set(url, text);
+  }
+  return text;
+}
+
+/** The text of a file of the package that its main file asks for. */
+export const partOf = (name: string): Promise<string> => textAt(vendors[`gdel.${name}.js`]);
+
+/** The address of an example's file. */
+export const addressOf = (name: string): string => new URL(data[name], location.href).href;
+
+/** The names of the libraries that come with those that code imports, and their own. */
+export function namesFor(imported: readonly string[]): string[] {
+  const all = new Set(imported.filter((name) => packages[name]));
+  for (const name of all) {
+    const { vendor, uses = [] } = packages[name];
+    const beside = Object.keys(packages).filter((other) => packages[other].vendor === vendor);
+    for (const other of [...uses, ...beside]) all.add(other);
+    if (name.startsWith('gdel-wasm/')) all.add('gdel-wasm');
+  }
+  return [...all];
+}
+
+/** The texts of libraries, by their names. */
+export async function modulesOf(names: readonly string[]): Promise<Record<string, string>> {
+  const all = names.map(async (name) => [name, await textAt(vendors[`${packages[name].vendor}.js`])]);
+  return Object.fromEntries(await Promise.all(all));
+}
+
+/** Where libraries are on the web, by their names. */
+export const addressesOf = (names: readonly string[]): Record<string, string> =>
+  Object.fromEntries(
+    names.map((name) => [
+      name,
+      packages[name].cdn.replace(/\{([^}]+)\}/g, (_, of: string) => versions[of]),
+    ]),
+  );
+
+/** The style sheets of libraries: their paths in packages, addresses on the web, and files. */
+export const stylesOf = (names: readonly string[]) =>
+  names.flatMap((name) => {
+    const { style, vendor } = packages[name];
+    const cdn = `https://cdn.jsdelivr.net/npm/${style?.replace('/', `@${versions[name]}/`)}`;
+    return style ? [{ path: style, cdn, text: () => textAt(vendors[`${vendor}.css`]) }] : [];
+  });
