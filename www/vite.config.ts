@@ -1,4 +1,4 @@
-import { readFileSync } from 'node:fs';
+import { readdirSync, readFileSync } from 'node:fs';
 import { serwist } from '@serwist/vite';
 import { defineConfig } from 'vite';
 
@@ -9,6 +9,13 @@ const { repository, version } = JSON.parse(
 process.env.VITE_VERSION = version;
 process.env.VITE_REPOSITORY = repository.url.replace(/^git\+|\.git$/g, '');
 
+/** The pages that Eleventy makes: see site/eleventy.config.mjs. */
+const pages = ['api', 'benchmarks', 'examples', 'guide'].flatMap((folder) =>
+  readdirSync(new URL(folder, import.meta.url), { recursive: true, encoding: 'utf8' })
+    .filter((file) => file.endsWith('.html'))
+    .map((file) => `${folder}/${file}`),
+);
+
 export default defineConfig({
   // Relative addresses: the page works from any folder of any host.
   base: './',
@@ -16,7 +23,9 @@ export default defineConfig({
   build: {
     target: 'es2023',
     chunkSizeWarningLimit: 900,
-    rolldownOptions: { input: ['index.html', 'report/index.html', 'treemap/index.html'] },
+    rolldownOptions: {
+      input: ['index.html', 'report/index.html', 'treemap/index.html', ...pages],
+    },
   },
   server: { fs: { allow: ['..'] } },
   plugins: [
@@ -24,7 +33,7 @@ export default defineConfig({
       swSrc: 'src/offline.worker.ts',
       swDest: 'offline.js',
       globDirectory: 'dist',
-      globPatterns: ['**/*.{html,js,css,wasm,svg,webp,woff2,gz,webmanifest}'],
+      globPatterns: ['**/*.{html,js,json,css,wasm,svg,webp,woff2,gz,webmanifest}'],
       // Ten times as large as all else, and kept when it is fetched.
       globIgnores: ['**/dragon*'],
       maximumFileSizeToCacheInBytes: 4e6,

@@ -1,0 +1,5 @@
+export default {
+  layout: 'article.njk',
+  section: 'entries',
+  eleventyComputed: { kind: ({ member }) => member || 'Reference' },
+};

@@ -1,0 +1,112 @@
+// The pages beside the demo: Eleventy makes HTML files of what is in this folder, and Vite then builds them with the
+// demo page (vite.config.ts), which hashes their scripts and styles and makes all addresses relative.
+//
+//   _layouts/base.njk      what every page has: head, navigation, search
+//   _layouts/article.njk   the same with text in a column, and a list of the section's pages beside it
+//   _data/site.mjs         version, repository and navigation, as `site` in templates
+//   guide/NAME.md          a guide, at /guide/NAME/; `order` in its front matter is its place
+//   examples/              the examples, in the same way; index.njk lists them
+//   benchmarks/            the charts, made of benches/results
+//   api/                   the reference, made by TypeDoc (reference.mjs)
+//   search.11ty.mjs        the words of all pages, for the search
+//
+// A page is Markdown or Nunjucks with front matter:
+//
+//   title        required
+//   description  one sentence, for search engines, lists and the search
+//   script       a module for this page alone, such as /src/examples/weather.ts
+//   style        a style sheet for this page alone, such as /src/examples/weather.css
+//
+// Links are addresses from the root (/guide/), or paths of Markdown files (../guide/memory.md); both become relative. What is
+// written goes to www/guide, www/api, … beside the sources of the demo, where Vite finds it; git ignores it.
+//
+// A block of Markdown that begins with ```js run is a program of its own. tests/site.test.mjs runs it in a browser, where what
+// it logs must be what its comments `// → …` say, in order.
+
+import { rmSync } from 'node:fs';
+import { InputPathToUrlTransformPlugin } from '@11ty/eleventy';
+import shiki from '@shikijs/markdown-it';
+import anchor from 'markdown-it-anchor';
+import { writeReference } from './reference.mjs';
+
+/** Returns the name by which GitHub, too, links to a heading. */
+const slugify = (text) =>
+  text
+    .trim()
+    .toLowerCase()
+    .replace(/[^\p{L}\p{N}\s_-]/gu, '')
+    .replace(/\s/g, '-');
+
+/** Returns the headings of a page's second level. */
+const headings = (html) =>
+  [...html.matchAll(/<h2 id="([^"]+)"[^>]*>(.*?)<\/h2>/gs)].map(([, id, text]) => ({
+    id,
+    text: text.replace(/<[^>]+>/g, ''),
+  }));
+
+/** Returns an address from the root as one that is relative to a page. */
+function relativeTo(page, address) {
+  if (!address.startsWith('/') || !page.url) return address;
+  const up = '../'.repeat(page.url.split('/').length - 2);
+  return `${up}${address.slice(1)}` || './';
+}
+
+/** Puts code into a box, for the button that copies it, and tables into one that scrolls. */
+function boxes(markdown) {
+  const { rules } = markdown.renderer;
+  const fence = rules.fence ?? markdown.renderer.rules.fence;
+  rules.fence = (...args) => `<div class="code">${fence(...args)}</div>\n`;
+  rules.table_open = () =>
+    '<div class="scroll" tabindex="0" role="region" aria-label="Table"><table>\n';
+  rules.table_close = () => '</table></div>\n';
+}
+
+export default async function configure(eleventy) {
+  for (const folder of ['api', 'benchmarks', 'examples', 'guide'])
+    rmSync(new URL(`../${folder}`, import.meta.url), { recursive: true, force: true });
+  await writeReference();
+  eleventy.setUseGitIgnore(false);
+  eleventy.setQuietMode(true);
+
+  const highlight = await shiki({
+    langs: ['js', 'ts', 'python', 'rust', 'cpp', 'sh', 'json', 'html', 'css'],
+    themes: { light: 'github-light-high-contrast', dark: 'github-dark-high-contrast' },
+    defaultColor: false,
+  });
+  eleventy.amendLibrary('md', (markdown) =>
+    markdown
+      .set({ html: true })
+      .use(highlight)
+      .use(boxes)
+      .use(anchor, { slugify, tabIndex: false }),
+  );
+
+  eleventy.addFilter('headings', headings);
+  for (const folder of ['guide', 'examples'])
+    eleventy.addCollection(folder, (all) =>
+      all
+        .getAll()
+        .filter(({ data, url }) => data.order && url.startsWith(`/${folder}/`))
+        .sort((a, b) => a.data.order - b.data.order),
+    );
+  eleventy.addCollection('entries', (all) =>
+    all
+      .getAll()
+      .filter(({ data, url }) => url.startsWith('/api/gdel-wasm/') && data.member === '')
+      .sort((a, b) => (a.url < b.url ? -1 : 1)),
+  );
+  eleventy.addPlugin(InputPathToUrlTransformPlugin);
+  eleventy.htmlTransformer.addUrlTransform(
+    'html',
+    function (address) {
+      return relativeTo(this.page, address);
+    },
+    // After links to Markdown have become addresses.
+    { priority: -2 },
+  );
+  return {
+    dir: { input: 'site', output: '.', layouts: '_layouts', data: '_data' },
+    markdownTemplateEngine: false,
+    htmlTemplateEngine: 'njk',
+  };
+}

@@ -1,0 +1,1 @@
+export default { layout: 'article.njk', section: 'examples', kind: 'Example' };

@@ -1,0 +1,1 @@
+export default { layout: 'article.njk', section: 'guide', kind: 'Guide' };
