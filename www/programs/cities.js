@@ -3,7 +3,8 @@ import { delaunaySphere } from 'gdel-wasm';
 
 const cities = await (await fetch('cities.json')).json();
 const land = await (await fetch('land.json')).json();
-const sphere = await delaunaySphere(cities, { point: ([, longitude, latitude]) => [longitude, latitude] });
+const places = cities.map(([, longitude, latitude]) => [longitude, latitude]);
+const sphere = await delaunaySphere(places);
 const voronoi = await sphere.voronoi();
 // d3-geo wants the orientation that RFC 7946 does not.
 const cells = cities.map((_, i) => voronoi.cellPolygon(i).reverse());
@@ -28,7 +29,6 @@ function draw(nearest) {
   paint(land, '#d9cfae', '#a98');
   paint({ type: 'Polygon', coordinates: [cells[nearest]] }, '#e8702a88', '#b3400f');
   for (const cell of cells) paint({ type: 'LineString', coordinates: cell }, 'transparent', '#b3400f66');
-  const places = cities.map(([, ...place]) => place);
   paint({ type: 'MultiPoint', coordinates: places }, '#333', '#333');
   const area = (voronoi.areas[nearest] * 6371 ** 2) / 1e6;
   note.textContent = `${cities[nearest][0]} is nearest, one of ${cities.length}, to ${area.toFixed(1)} million km²`;

@@ -36,12 +36,12 @@ function draw() {
 }
 
 let updates = 0;
-for (;;) {
-  draw();
-  await new Promise(requestAnimationFrame);
-  if (!label.firstChild.checked) continue;
-  simulate();
-  await mesh.update(points);
-  const { total } = mesh.stats.phases;
-  note.textContent = `${COUNT} points, ${mesh.triangles.length / 3} triangles, ${++updates} updates`;
-}
+requestAnimationFrame(async function next() {
+  if (label.firstChild.checked) {
+    simulate();
+    await mesh.update(points);
+    note.textContent = `${COUNT} points, ${mesh.triangles.length / 3} triangles, ${++updates} updates`;
+    draw();
+  }
+  requestAnimationFrame(next);
+});

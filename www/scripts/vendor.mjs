@@ -1,5 +1,5 @@
-// Makes the modules that examples import, www/vendor: each library in one file, and those of the package as they are.
-// A frame in a sandbox makes modules of their texts, which know no addresses: so imports of other libraries stay bare,
+// Makes the modules that examples import, www/vendor: each library in one file, and those of the package.
+// The service worker knows them by how their names begin. A frame in a sandbox makes modules of their texts, which know no addresses: so imports of other libraries stay bare,
 // and the package's own files are asked for by name when they are needed.
 import { cpSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
@@ -19,14 +19,13 @@ rmSync(vendor, { recursive: true, force: true });
 mkdirSync(vendor);
 
 function copyPackage() {
-  const copy = (from, to, before = '') => {
+  const copy = (from, to) => {
     const text = readFileSync(new URL(from, dist), 'utf8')
       .replace(/import\("\.\/([\w-]+)\.js"\)/g, 'partOf("$1")')
       .replaceAll('"./index.js"', '"gdel-wasm"');
-    writeFileSync(new URL(to, vendor), before + text);
+    writeFileSync(new URL(`vendor.${to}`, vendor), text);
   };
-  const partOf = new URL('../src/examples/part.mjs', import.meta.url);
-  copy('inline.js', 'gdel.js', readFileSync(partOf, 'utf8'));
+  copy('inline.js', 'gdel.js');
   for (const entry of ['treemap', 'tin']) copy(`${entry}.js`, `gdel.${entry}.js`);
   const parts = readdirSync(dist).filter((name) => /^(inline|core)-.*\.js$/.test(name));
   for (const name of parts) copy(name, `gdel.${name}`);
@@ -64,12 +63,12 @@ async function bundle(file) {
     ],
   });
   const { output } = await build.generate({ format: 'es', minify: true, codeSplitting: false });
-  writeFileSync(new URL(`${file}.js`, vendor), output[0].code);
-  console.log(`www/vendor/${file}.js: ${Math.round(output[0].code.length / 1e3)} kB`);
+  writeFileSync(new URL(`vendor.${file}.js`, vendor), output[0].code);
+  console.log(`www/vendor/vendor.${file}.js: ${Math.round(output[0].code.length / 1e3)} kB`);
 }
 
 copyPackage();
 for (const { style, vendor: file } of Object.values(packages))
-  if (style) cpSync(fileURLToPath(import.meta.resolve(style)), new URL(`${file}.css`, vendor));
+  if (style) cpSync(fileURLToPath(import.meta.resolve(style)), new URL(`vendor.${file}.css`, vendor));
 const files = new Set(Object.values(packages).map(({ vendor }) => vendor));
 for (const file of files) if (!file.startsWith('gdel')) await bundle(file);

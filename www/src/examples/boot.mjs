@@ -11,7 +11,7 @@ const addressOf = (text) => URL.createObjectURL(new Blob([text], { type: 'text/j
 /** The line in the visitor's code from which an error comes, or null. */
 function lineOf(error, event) {
   if (event?.filename === own && event.lineno > 0) return event.lineno;
-  const found = String(error?.stack).split(`${own}:`)[1];
+  const found = own && String(error?.stack).split(`${own}:`)[1];
   return found ? Number.parseInt(found, 10) : null;
 }
 
@@ -32,17 +32,45 @@ for (const level of ['log', 'info', 'warn', 'error']) {
   };
 }
 
-/** The page fetches the package's own files when they are needed, also for workers of the visitor's: see part.mjs. */
-const parts = new BroadcastChannel('gdel-parts');
-parts.onmessage = ({ data }) => data.wanted && tell({ type: 'part', name: data.wanted });
+/** What gives the package its own files, by their names, once the page has sent them. */
+const parts = new Map();
 
-function start({ code, modules, files, styles, dark }) {
+/** The package's main file calls this in place of imports. */
+globalThis.partOf = (name) => {
+  let part = parts.get(name);
+  if (!part) {
+    part = {};
+    part.module = new Promise((resolve) => {
+      part.resolve = resolve;
+    });
+    parts.set(name, part);
+    tell({ type: 'part', name });
+  }
+  return part.module;
+};
+
+/** The same for workers, which cannot ask the page: it has sent all files. */
+function partsAtHand(texts) {
+  const addresses = Object.entries(texts).map(([name, text]) => [name, addressOf(text)]);
+  return `const partOf = (name) => import(${JSON.stringify(Object.fromEntries(addresses))}[name]);\n`;
+}
+
+const setTheme = (dark) => {
   document.documentElement.style.colorScheme = dark ? 'dark' : 'light';
+};
+
+function start({ code, modules, files, styles, dark, allParts }) {
+  setTheme(dark);
   for (const style of styles) document.head.append(Object.assign(document.createElement('style'), { textContent: style }));
   const request = globalThis.fetch;
   globalThis.fetch = async (input, ...rest) =>
     files[input] ? new Response(files[input].slice(0)) : request(input, ...rest);
-  const imports = Object.fromEntries(Object.entries(modules).map(([name, text]) => [name, addressOf(text)]));
+  const imports = {};
+  for (const { names, text } of modules) {
+    const isPackage = allParts && names.includes('gdel-wasm');
+    const address = addressOf(isPackage ? partsAtHand(allParts) + text : text);
+    for (const name of names) imports[name] = address;
+  }
   const script = (type, properties) =>
     document.head.append(Object.assign(document.createElement('script'), { type, ...properties }));
   script('importmap', { textContent: JSON.stringify({ imports }) });
@@ -53,7 +81,8 @@ function start({ code, modules, files, styles, dark }) {
 }
 
 addEventListener('message', ({ data }) => {
-  if (data.type === 'part') parts.postMessage(data);
+  if (data.type === 'part') parts.get(data.name).resolve(import(addressOf(data.text)));
+  else if (data.type === 'theme') setTheme(data.dark);
   else start(data);
 });
 tell({ type: 'ready' });

@@ -41,27 +41,40 @@ function textAt(url: string): Promise<string> {
 }
 
 /** The text of a file of the package that its main file asks for. */
-export const partOf = (name: string): Promise<string> => textAt(vendors[`gdel.${name}.js`]);
+export const partOf = (name: string): Promise<string> => textAt(vendors[`vendor.gdel.${name}.js`]);
+
+/** All of them, by their names. */
+export async function allParts(): Promise<Record<string, string>> {
+  const names = Object.keys(vendors).flatMap((file) => /gdel\.(\w+-.+)\.js$/.exec(file)?.[1] ?? []);
+  return Object.fromEntries(await Promise.all(names.map(async (name) => [name, await partOf(name)])));
+}
 
 /** The address of an example's file. */
 export const addressOf = (name: string): string => new URL(data[name], location.href).href;
 
-/** The names of the libraries that come with those that code imports, and their own. */
-export function namesFor(imported: readonly string[]): string[] {
-  const all = new Set(imported.filter((name) => packages[name]));
+/** The libraries that code names: it may also do so in text of which it makes a module. */
+export const namedIn = (code: string): string[] =>
+  Object.keys(packages).filter((name) => [`'${name}'`, `"${name}"`].some((quoted) => code.includes(quoted)));
+
+/** The same with those that come with them, and that they import. */
+export function neededFor(code: string): string[] {
+  const all = new Set(namedIn(code));
   for (const name of all) {
     const { vendor, uses = [] } = packages[name];
     const beside = Object.keys(packages).filter((other) => packages[other].vendor === vendor);
     for (const other of [...uses, ...beside]) all.add(other);
-    if (name.startsWith('gdel-wasm/')) all.add('gdel-wasm');
   }
   return [...all];
 }
 
-/** The texts of libraries, by their names. */
-export async function modulesOf(names: readonly string[]): Promise<Record<string, string>> {
-  const all = names.map(async (name) => [name, await textAt(vendors[`${packages[name].vendor}.js`])]);
-  return Object.fromEntries(await Promise.all(all));
+/** The texts of libraries: names of one file are names of one module. */
+export function modulesOf(names: readonly string[]): Promise<{ names: string[]; text: string }[]> {
+  const files = Object.groupBy(names, (name) => packages[name].vendor);
+  const all = Object.entries(files).map(async ([file, names = []]) => ({
+    names,
+    text: await textAt(vendors[`vendor.${file}.js`]),
+  }));
+  return Promise.all(all);
 }
 
 /** Where libraries are on the web, by their names. */
@@ -78,5 +91,5 @@ export const stylesOf = (names: readonly string[]) =>
   names.flatMap((name) => {
     const { style, vendor } = packages[name];
     const cdn = `https://cdn.jsdelivr.net/npm/${style?.replace('/', `@${versions[name]}/`)}`;
-    return style ? [{ path: style, cdn, text: () => textAt(vendors[`${vendor}.css`]) }] : [];
+    return style ? [{ path: style, cdn, text: () => textAt(vendors[`vendor.${vendor}.css`]) }] : [];
   });

@@ -1,6 +1,5 @@
-import { addressesOf, addressOf, namesFor, stylesOf } from './catalogue';
+import { addressesOf, addressOf, namedIn, neededFor, stylesOf } from './catalogue';
 import style from './page.css?raw';
-import { specifiersOf } from './specifiers';
 
 /** What of a name belongs to the package: @scope/name/part is of @scope/name. */
 const packageOf = (name: string) => /^(@[^/]+\/)?[^/]+/.exec(name)?.[0] ?? name;
@@ -10,20 +9,19 @@ const filesNote = (files: readonly string[]) =>
   files.map((name) => `${name}: ${addressOf(name)}`);
 
 /** The code for a project with a bundler. */
-export async function forNpm(code: string, files: readonly string[]): Promise<string> {
-  const names = await specifiersOf(code);
-  const packages = [...new Set(names.filter((name) => !name.startsWith('node:')).map(packageOf))];
+export function forNpm(code: string, files: readonly string[]): string {
+  const packages = [...new Set(namedIn(code).map(packageOf))];
   return [
     `// npm install ${packages.join(' ')}`,
     ...filesNote(files).map((line) => `// ${line}`),
-    ...stylesOf(namesFor(names)).map(({ path }) => `import '${path}';`),
+    ...stylesOf(neededFor(code)).map(({ path }) => `import '${path}';`),
     code,
   ].join('\n');
 }
 
 /** A whole page that needs no bundler. */
-export async function forPage(title: string, code: string, files: readonly string[]): Promise<string> {
-  const names = namesFor(await specifiersOf(code));
+export function forPage(title: string, code: string, files: readonly string[]): string {
+  const names = neededFor(code);
   const indented = (text: string) => text.trimEnd().replace(/^(?=.)/gm, '  ');
   return `<!doctype html>
 <html lang="en">

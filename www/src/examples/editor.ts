@@ -51,7 +51,7 @@ export interface Editor {
 export function editorIn(
   place: HTMLElement,
   text: string,
-  { changed, run }: { changed: () => void; run: () => void },
+  { readOnly, changed, run }: { readOnly: boolean; changed: () => void; run: () => void },
 ): Editor {
   const view = new EditorView({
     parent: place,
@@ -59,6 +59,8 @@ export function editorIn(
       doc: text,
       extensions: [
         lineNumbers(),
+        EditorState.readOnly.of(readOnly),
+        EditorView.editable.of(!readOnly),
         highlightSpecialChars(),
         history(),
         drawSelection(),

@@ -1,7 +1,6 @@
 import boot from './boot.mjs?raw';
-import { addressOf, modulesOf, namesFor, partOf, stylesOf } from './catalogue';
+import { addressOf, allParts, modulesOf, neededFor, partOf, stylesOf } from './catalogue';
 import style from './page.css?raw';
-import { specifiersOf } from './specifiers';
 
 /** What an example's frame says. */
 export type Said =
@@ -13,14 +12,16 @@ const DOCUMENT = `<!doctype html><html lang="en"><head><meta charset="utf-8"><ti
 
 /** What the code needs, fetched. */
 async function loaded(code: string, files: readonly string[]) {
-  const names = namesFor(await specifiersOf(code));
+  const names = neededFor(code);
   const bytes = async (name: string) => [name, await (await fetch(addressOf(name))).arrayBuffer()];
-  const [modules, styles, contents] = await Promise.all([
+  const [modules, parts, styles, contents] = await Promise.all([
     modulesOf(names),
+    // Workers cannot ask for them.
+    /\bnew (Shared)?Worker\b/.test(code) ? allParts() : null,
     Promise.all(stylesOf(names).map(({ text }) => text())),
     Promise.all(files.map(bytes)),
   ]);
-  return { modules, styles: [style, ...styles], files: Object.fromEntries(contents) };
+  return { modules, allParts: parts, styles: [style, ...styles], files: Object.fromEntries(contents) };
 }
 
 /**
@@ -36,14 +37,15 @@ export function run(
   const frame = document.createElement('iframe');
   frame.title = 'The result';
   frame.sandbox.add('allow-scripts', 'allow-downloads');
-  const dark = document.documentElement.dataset.theme === 'dark';
+  const root = document.documentElement;
+  const isDark = () => root.dataset.theme === 'dark';
   const needed = loaded(code, files);
   const tell = (message: object) => frame.contentWindow?.postMessage(message, '*');
   const listen = async ({ source, data }: MessageEvent) => {
     if (!frame.isConnected) removeEventListener('message', listen);
     if (source !== frame.contentWindow || source === null) return;
     try {
-      if (data.type === 'ready') tell({ type: 'start', code, dark, ...(await needed) });
+      if (data.type === 'ready') tell({ type: 'start', code, dark: isDark(), ...(await needed) });
       else if (data.type === 'part')
         tell({ type: 'part', name: data.name, text: await partOf(data.name) });
       else heard(data);
@@ -52,6 +54,10 @@ export function run(
     }
   };
   addEventListener('message', listen);
+  new MutationObserver((_, observer) => {
+    if (frame.isConnected) tell({ type: 'theme', dark: isDark() });
+    else observer.disconnect();
+  }).observe(root, { attributeFilter: ['data-theme'] });
   frame.srcdoc = DOCUMENT;
   place.replaceChildren(frame);
 }
