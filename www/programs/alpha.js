@@ -6,11 +6,15 @@ let seed = 5;
 const random = () => (seed = (seed * 16807) % 2147483647) / 2147483647;
 while (points.length < 900) {
   const [x, y] = [720 * random(), 420 * random()];
-  const rings = [[200, 210], [510, 210]].map(([cx, cy]) => Math.hypot(x - cx, y - cy));
+  const rings = [
+    [200, 210],
+    [510, 210],
+  ].map(([cx, cy]) => Math.hypot(x - cx, y - cy));
   if (rings.some((r) => r > 80 && r < 150)) points.push([x, y]);
 }
 const mesh = await delaunay2d(points);
-const { alpha: least, criticalValues } = await mesh.alphaShape({ criticalValues: true });
+// The least radius at which all points belong to one part.
+const { alpha: least } = await mesh.alphaShape();
 
 document.body.innerHTML = `<p></p>
   <label>Radius <input type="range" min="2" max="90" step="0.5" value="${least}"></label>

@@ -1,4 +1,4 @@
-import { geoGraticule10, geoOrthographic, geoPath } from 'd3-geo';
+import { geoOrthographic, geoPath } from 'd3-geo';
 import { delaunaySphere } from 'gdel-wasm';
 
 const cities = await (await fetch('cities.json')).json();
@@ -13,7 +13,10 @@ const SIZE = 600;
 document.body.innerHTML = `<p></p><canvas width=${SIZE} height=${SIZE} style="max-width: 500px"></canvas>`;
 const [note, canvas] = document.body.children;
 const context = canvas.getContext('2d');
-const globe = geoOrthographic().translate([SIZE / 2, SIZE / 2]).scale(SIZE / 2 - 4).rotate([-15, -35]);
+const globe = geoOrthographic()
+  .translate([SIZE / 2, SIZE / 2])
+  .scale(SIZE / 2 - 4)
+  .rotate([-15, -35]);
 const path = geoPath(globe, context).pointRadius(3);
 
 function draw(nearest) {
@@ -28,7 +31,8 @@ function draw(nearest) {
   paint({ type: 'Sphere' }, '#bcd3e6', '#789');
   paint(land, '#d9cfae', '#a98');
   paint({ type: 'Polygon', coordinates: [cells[nearest]] }, '#e8702a88', '#b3400f');
-  for (const cell of cells) paint({ type: 'LineString', coordinates: cell }, 'transparent', '#b3400f66');
+  for (const cell of cells)
+    paint({ type: 'LineString', coordinates: cell }, 'transparent', '#b3400f66');
   paint({ type: 'MultiPoint', coordinates: places }, '#333', '#333');
   const area = (voronoi.areas[nearest] * 6371 ** 2) / 1e6;
   note.textContent = `${cities[nearest][0]} is nearest, one of ${cities.length}, to ${area.toFixed(1)} million km²`;

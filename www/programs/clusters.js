@@ -3,7 +3,15 @@ import { delaunay2d } from 'gdel-wasm';
 // Points around seven places.
 let seed = 11;
 const random = () => (seed = (seed * 16807) % 2147483647) / 2147483647;
-const places = [[110, 110], [310, 90], [560, 120], [150, 340], [360, 260], [460, 400], [620, 320]];
+const places = [
+  [110, 110],
+  [310, 90],
+  [560, 120],
+  [150, 340],
+  [360, 260],
+  [460, 400],
+  [620, 320],
+];
 const points = places.flatMap(([x, y]) =>
   Array.from({ length: 60 }, () => {
     const [r, angle] = [58 * random(), 2 * Math.PI * random()];

@@ -15,7 +15,7 @@ world.createCollider(RAPIER.ColliderDesc.trimesh(vertices, surface.triangles));
 world.createCollider(RAPIER.ColliderDesc.cuboid(2, 0.1, 2).setTranslation(0, 0.23, 0));
 const balls = Array.from({ length: 80 }, (_, i) => {
   const [x, z] = [-0.9 + 0.15 * (i % 10), -0.4 + 0.1 * Math.floor(i / 10)];
-  const body = RAPIER.RigidBodyDesc.dynamic().setTranslation(x, 2.2 + 0.012 * i, z);
+  const body = RAPIER.RigidBodyDesc.dynamic().setTranslation(x, 2 + 0.012 * i, z);
   const ball = world.createRigidBody(body);
   world.createCollider(RAPIER.ColliderDesc.ball(0.04).setRestitution(0.4), ball);
   return ball;
@@ -26,7 +26,7 @@ const geometry = new THREE.BufferGeometry();
 geometry.setAttribute('position', new THREE.BufferAttribute(vertices, 3));
 geometry.setIndex(new THREE.BufferAttribute(surface.triangles, 1));
 geometry.computeVertexNormals();
-const floor = new THREE.CircleGeometry(2, 48).rotateX(-Math.PI / 2).translate(0, 0.33, 0);
+const floor = new THREE.CircleGeometry(1.6, 48).rotateX(-Math.PI / 2).translate(0, 0.33, 0);
 const paint = (color) => new THREE.MeshStandardMaterial({ color });
 const light = new THREE.DirectionalLight('white', 2.5);
 light.position.set(-1, 2, 3);
@@ -39,8 +39,8 @@ renderer.setSize(720, 540, false);
 const note = document.createElement('p');
 document.body.append(note, renderer.domElement);
 const camera = new THREE.PerspectiveCamera(35, 4 / 3, 0.1, 20);
-camera.position.set(-0.2, 2.4, 5);
-camera.lookAt(-0.2, 1, 0);
+camera.position.set(-0.2, 2.6, 5.4);
+camera.lookAt(-0.1, 0.95, 0);
 
 renderer.setAnimationLoop(() => {
   world.step();

@@ -4,7 +4,9 @@ import * as L from 'leaflet';
 // Name, longitude, latitude and the mean temperature of July of each station.
 const csv = await (await fetch('stations.csv')).text();
 const rows = csv.trim().split('\n').slice(1);
-const stations = rows.map((row) => row.split(',')).map(([name, ...rest]) => [name, ...rest.map(Number)]);
+const stations = rows
+  .map((row) => row.split(','))
+  .map(([name, ...rest]) => [name, ...rest.map(Number)]);
 
 // Values between the stations: smooth, on a grid. Outside of all stations there are none.
 const places = stations.map(([, x, y]) => [x, y]);
@@ -21,7 +23,10 @@ const contours = await (await delaunay2d(grid)).contours(values, levels);
 document.body.innerHTML = '<p></p><div style="height: 480px; background: none"></div>';
 const [note, place] = document.body.children;
 const map = L.map(place, { zoomSnap: 0, maxZoom: 8, minZoom: 2 });
-map.fitBounds([[36, -10], [62, 31]]);
+map.fitBounds([
+  [36, -10],
+  [62, 31],
+]);
 map.attributionControl.addAttribution('Outlines: Natural Earth');
 const outlines = await (await fetch('europe.json')).json();
 L.geoJSON(outlines, { style: { color: '#888', weight: 1, fillOpacity: 0.1 } }).addTo(map);

@@ -15,7 +15,7 @@ const far = Float32Array.from({ length: count }, (_, i) => {
   const [px, py, pz] = place(i);
   return Math.hypot(x - px, y - py, z - pz);
 });
-const usual = far.toSorted()[count / 2 | 0];
+const usual = far.toSorted()[(count / 2) | 0];
 
 const colors = new Uint8Array(3 * count);
 far.forEach((distance, i) => {
@@ -31,7 +31,7 @@ frame.style = 'position: relative; height: 480px';
 frame.append(canvas);
 document.body.append(note, frame);
 
-const deck = new Deck({
+new Deck({
   canvas,
   parent: frame,
   views: new OrbitView(),

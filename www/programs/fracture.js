@@ -45,11 +45,13 @@ const camera = new THREE.PerspectiveCamera(35, 4 / 3, 0.1, 20);
 camera.position.set(-2, 1.6, 2.6);
 function draw() {
   shards.forEach((shard, i) => {
-    shard.position.fromArray(centroids, 3 * i).subScalar(0.5).multiplyScalar(slider.valueAsNumber);
+    shard.position
+      .fromArray(centroids, 3 * i)
+      .subScalar(0.5)
+      .multiplyScalar(slider.valueAsNumber);
   });
   renderer.render(scene, camera);
 }
 slider.oninput = draw;
-const controls = new OrbitControls(camera, renderer.domElement);
-controls.addEventListener('change', draw);
-controls.update();
+new OrbitControls(camera, renderer.domElement).addEventListener('change', draw);
+draw();

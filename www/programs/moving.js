@@ -32,7 +32,8 @@ function draw() {
   context.strokeStyle = '#888';
   context.stroke();
   context.fillStyle = '#d2602a';
-  for (let i = 0; i < coords.length; i += 2) context.fillRect(coords[i] - 2, coords[i + 1] - 2, 4, 4);
+  for (let i = 0; i < coords.length; i += 2)
+    context.fillRect(coords[i] - 2, coords[i + 1] - 2, 4, 4);
 }
 
 let updates = 0;

@@ -6,7 +6,7 @@ const truth = (x, y) => Math.sin(4 * x) * Math.cos(3 * y) + 0.6 * x * y;
 // Samples at random places and at the corners of the square.
 let seed = 7;
 const random = () => (seed = (seed * 16807) % 2147483647) / 2147483647;
-const points = [[0, 0], [1, 0], [0, 1], [1, 1]];
+const points = [0, 1].flatMap((x) => [0, 1].map((y) => [x, y]));
 while (points.length < 60) points.push([random(), random()]);
 const values = points.map(([x, y]) => truth(x, y));
 

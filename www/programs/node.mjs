@@ -20,7 +20,9 @@ const { passed, checks } = await verify(points, mesh);
 console.log(`${checks.length} exact checks: ${passed ? 'passed' : 'FAILED'}`);
 
 const surface = await mesh.surface();
-console.log(`surface: ${surface.triangles.length / 3} triangles, ${surface.components} piece, genus ${surface.genus}`);
+console.log(
+  `surface: ${surface.triangles.length / 3} triangles, ${surface.components} piece, genus ${surface.genus}`,
+);
 console.log(`volume: ${surface.volume.toFixed(0)} mm³, area: ${surface.area.toFixed(0)} mm²`);
 
 await writeFile('surface.stl', await surface.toSTL());

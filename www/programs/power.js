@@ -44,17 +44,20 @@ canvas.onpointerdown = canvas.onpointermove = ({ type, buttons, pointerId, offse
   if (buttons === 0) return;
   const [x, y] = [(offsetX * width) / canvas.clientWidth, (offsetY * height) / canvas.clientHeight];
   const distance = (circle) => Math.hypot(circle.x - x, circle.y - y) - circle.radius;
-  if (type === 'pointerdown') chosen = circles.reduce((a, b) => (distance(a) <= distance(b) ? a : b));
+  if (type === 'pointerdown')
+    chosen = circles.reduce((a, b) => (distance(a) <= distance(b) ? a : b));
   canvas.setPointerCapture(pointerId);
   Object.assign(chosen, { x, y });
   draw();
 };
-const KEYS = { ArrowLeft: ['x', -9], ArrowRight: ['x', 9], ArrowUp: ['y', -9], ArrowDown: ['y', 9], '+': ['radius', 4], '-': ['radius', -4] };
+const keys = ['ArrowLeft', 'ArrowRight', 'ArrowUp', 'ArrowDown', '-', '+'];
 canvas.onkeydown = ({ key }) => {
+  const at = keys.indexOf(key);
   if (key === ' ') chosen = circles[(circles.indexOf(chosen) + 1) % circles.length];
-  const [what, step] = KEYS[key] ?? ['x', 0];
-  chosen[what] = Math.max(1, chosen[what] + step);
+  else if (at < 0) return true;
+  else chosen[['x', 'y', 'radius'][at >> 1]] += at % 2 ? 8 : -8;
+  chosen.radius = Math.max(chosen.radius, 1);
   draw();
-  return key === 'Tab';
+  return false;
 };
 await draw();

@@ -27,12 +27,16 @@ function useVoronoi(points) {
 function Cells({ points, onPoint }) {
   const cells = useVoronoi(points);
   const click = ({ currentTarget, clientX, clientY }) => {
-    const place = new DOMPoint(clientX, clientY).matrixTransform(currentTarget.getScreenCTM().inverse());
+    const place = new DOMPoint(clientX, clientY).matrixTransform(
+      currentTarget.getScreenCTM().inverse(),
+    );
     onPoint([place.x, place.y]);
   };
   return html`<svg viewBox=${BOX.join(' ')} onClick=${click} stroke="white" strokeWidth="2">
-    ${cells.map((cell) => html`<polygon key=${cell.index} points=${cell.join(' ')}
-      fill="hsl(${cell.index * 137.5} 50% 65%)" />`)}
+    ${cells.map(
+      (cell) => html`<polygon key=${cell.index} points=${cell.join(' ')}
+      fill="hsl(${cell.index * 137.5} 50% 65%)" />`,
+    )}
     ${points.map(([cx, cy], i) => html`<circle key=${i} cx=${cx} cy=${cy} r="4" fill="#222" />`)}
   </svg>`;
 }

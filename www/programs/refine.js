@@ -7,7 +7,8 @@ document.body.innerHTML = `<p></p>
   <label>Smallest angle <input type="range" min="0" max="34" value="30"></label>
   <label>Largest area <input type="range" min="2" max="60" value="12"></label>
   <svg stroke-width="0.15" stroke="#1d4e79"></svg>`;
-const [note, { firstElementChild: angle }, { firstElementChild: area }, svg] = document.body.children;
+const [note, { firstElementChild: angle }, { firstElementChild: area }, svg] =
+  document.body.children;
 const sides = [0, 1].map((axis) => coarse.coords.filter((_, i) => i % 2 === axis));
 const [left, top] = sides.map((side) => Math.min(...side) - 2);
 const [right, bottom] = sides.map((side) => Math.max(...side) + 2);
@@ -25,9 +26,9 @@ async function draw() {
     paths += `<path d="M${[a, b, c].join('L')}Z" fill="hsl(205 60% ${Math.max(45, 92 - 3 * size)}%)"/>`;
   }
   svg.innerHTML = paths;
-  note.textContent = `${triangles.length / 3} triangles with angles of ${refinement.minAngle.toFixed(
-    1,
-  )}° or more, ${refinement.pointsOnSegments + refinement.pointsInside} points added`;
+  const added = refinement.pointsOnSegments + refinement.pointsInside;
+  const least = refinement.minAngle.toFixed(1);
+  note.textContent = `${triangles.length / 3} triangles with angles of ${least}° or more, ${added} points added`;
 }
 angle.oninput = area.oninput = draw;
 await draw();

@@ -5,7 +5,8 @@ if (adapter) await show(await adapter.requestDevice());
 else document.body.textContent = 'This browser offers no WebGPU, which this example needs.';
 
 async function show(device) {
-  document.body.innerHTML = '<p></p><canvas width=600 height=600 style="max-width: 500px"></canvas>';
+  document.body.innerHTML =
+    '<p></p><canvas width=600 height=600 style="max-width: 500px"></canvas>';
   const [note, canvas] = document.body.children;
   const context = canvas.getContext('webgpu');
   const format = navigator.gpu.getPreferredCanvasFormat();

@@ -11,9 +11,8 @@ const surface = await mesh.surface();
 document.body.innerHTML = '<p></p><button>Save for a printer (STL)</button>';
 const [note, button] = document.body.children;
 const kind = surface.closed ? 'watertight' : 'open';
-note.textContent = `${points.length / 3} points, ${surface.triangles.length / 3} triangles: ${kind}, ${(
-  surface.volume * 1e6
-).toFixed(0)} cm³`;
+const volume = (1e6 * surface.volume).toFixed(0);
+note.textContent = `${points.length / 3} points, ${surface.triangles.length / 3} triangles: ${kind}, ${volume} cm³`;
 
 button.onclick = async () => {
   const stl = new Blob([await surface.toSTL()], { type: 'model/stl' });
@@ -41,6 +40,6 @@ scene.add(light, new THREE.AmbientLight('white', 0.6));
 
 const camera = new THREE.PerspectiveCamera(35, 4 / 3, 0.01, 10);
 camera.position.set(0.05, 0.08, 0.32);
-const controls = new OrbitControls(camera, renderer.domElement);
-controls.addEventListener('change', () => renderer.render(scene, camera));
-controls.update();
+const draw = () => renderer.render(scene, camera);
+new OrbitControls(camera, renderer.domElement).addEventListener('change', draw);
+draw();

@@ -1,6 +1,6 @@
 import { delaunay2d } from 'gdel-wasm';
 
-const DOTS = 2500;
+const DOTS = 2000;
 const bitmap = await createImageBitmap(await (await fetch('picture.webp')).blob());
 const { width, height } = bitmap;
 document.body.innerHTML = `<p></p><canvas width=${3 * width} height=${3 * height}></canvas>`;
@@ -11,7 +11,8 @@ const context = canvas.getContext('2d');
 const small = new OffscreenCanvas(width, height).getContext('2d');
 small.drawImage(bitmap, 0, 0);
 const { data } = small.getImageData(0, 0, width, height);
-const ink = (x, y) => 0.02 + (1 - data[4 * (Math.floor(y) * width + Math.floor(x)) + 1] / 255) ** 1.5;
+const ink = (x, y) =>
+  0.02 + (1 - data[4 * (Math.floor(y) * width + Math.floor(x)) + 1] / 255) ** 1.5;
 
 // Dots at random, many where it is dark.
 let seed = 1;
@@ -24,7 +25,7 @@ while (dots.length < DOTS) {
 
 // Each dot gets a cell as large as it takes for all to have the same ink, and moves to its centre.
 const clip = [0, 0, width, height];
-for (let round = 1; round <= 12; round++) {
+for (let round = 1; round <= 10; round++) {
   const mesh = await delaunay2d(dots);
   const masses = dots.map(([x, y]) => 1 / ink(x, y));
   const { weights, error } = await mesh.transport({ masses, normalize: true, clip });

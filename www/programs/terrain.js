@@ -23,9 +23,9 @@ const terrain = await tin(points, { maxError: 0.25, edges: breaklines });
 const { vertices, triangles, edges } = terrain;
 
 const note = document.createElement('p');
-note.textContent = `${vertices.length / 3} of ${points.length} points are within ${terrain.maxError.toFixed(
-  2,
-)} m of all, with ${edges.length / 2} edges of breaklines`;
+const error = terrain.maxError.toFixed(2);
+const counts = `${vertices.length / 3} of ${points.length} points`;
+note.textContent = `${counts} are within ${error} m of all, with ${edges.length / 2} edges of breaklines`;
 const renderer = new THREE.WebGLRenderer({ antialias: true, alpha: true });
 renderer.setSize(720, 480, false);
 document.body.append(note, renderer.domElement);
@@ -38,9 +38,11 @@ lines.setAttribute('position', geometry.getAttribute('position'));
 lines.setIndex(new THREE.BufferAttribute(edges, 1));
 
 const scene = new THREE.Scene();
-const ground3 = new THREE.MeshStandardMaterial({ color: '#8fa876', flatShading: true });
-const wires = new THREE.MeshBasicMaterial({ color: '#3c4a30', wireframe: true });
-scene.add(new THREE.Mesh(geometry, ground3), new THREE.Mesh(geometry, wires));
+const grass = new THREE.MeshStandardMaterial({ color: '#8fa876', flatShading: true });
+// A little behind the lines on it.
+Object.assign(grass, { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
+const wires = new THREE.MeshBasicMaterial({ color: '#647a52', wireframe: true });
+scene.add(new THREE.Mesh(geometry, grass), new THREE.Mesh(geometry, wires));
 scene.add(new THREE.LineSegments(lines, new THREE.LineBasicMaterial({ color: '#ff7a30' })));
 const light = new THREE.DirectionalLight('white', 2.5);
 light.position.set(-2, 1, 2);
@@ -48,7 +50,7 @@ scene.add(light, new THREE.AmbientLight('white', 0.8));
 
 const camera = new THREE.PerspectiveCamera(35, 3 / 2, 1, 1000);
 camera.up.set(0, 0, 1);
-camera.position.set(50, -120, 85);
-const controls = new OrbitControls(camera, renderer.domElement);
-controls.addEventListener('change', () => renderer.render(scene, camera));
-controls.update();
+camera.position.set(45, -100, 75);
+const draw = () => renderer.render(scene, camera);
+new OrbitControls(camera, renderer.domElement).addEventListener('change', draw);
+draw();

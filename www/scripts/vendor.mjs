@@ -57,7 +57,8 @@ async function bundle(file) {
     plugins: [
       {
         name: 'entry',
-        resolveId: (id) => (id === 'entry' ? new URL('../entry.js', import.meta.url).pathname : null),
+        resolveId: (id) =>
+          id === 'entry' ? new URL('../entry.js', import.meta.url).pathname : null,
         load: (id) => (id.endsWith('/www/entry.js') ? entry.join('\n') : null),
       },
     ],
@@ -69,6 +70,7 @@ async function bundle(file) {
 
 copyPackage();
 for (const { style, vendor: file } of Object.values(packages))
-  if (style) cpSync(fileURLToPath(import.meta.resolve(style)), new URL(`vendor.${file}.css`, vendor));
+  if (style)
+    cpSync(fileURLToPath(import.meta.resolve(style)), new URL(`vendor.${file}.css`, vendor));
 const files = new Set(Object.values(packages).map(({ vendor }) => vendor));
 for (const file of files) if (!file.startsWith('gdel')) await bundle(file);

@@ -16,7 +16,8 @@ function lineOf(error, event) {
 }
 
 function failed(error, event) {
-  const message = error instanceof Error ? `${error.name}: ${error.message}` : String(error ?? event?.message);
+  const message =
+    error instanceof Error ? `${error.name}: ${error.message}` : String(error ?? event?.message);
   tell({ type: 'error', message, line: lineOf(error, event) });
 }
 
@@ -27,7 +28,9 @@ for (const level of ['log', 'info', 'warn', 'error']) {
   const write = console[level];
   console[level] = (...values) => {
     write(...values);
-    const text = values.map((value) => (typeof value === 'object' ? JSON.stringify(value) : String(value)));
+    const text = values.map((value) =>
+      typeof value === 'object' ? JSON.stringify(value) : String(value),
+    );
     tell({ type: 'log', level, text: text.join(' ') });
   };
 }
@@ -61,7 +64,8 @@ const setTheme = (dark) => {
 
 function start({ code, modules, files, styles, dark, allParts }) {
   setTheme(dark);
-  for (const style of styles) document.head.append(Object.assign(document.createElement('style'), { textContent: style }));
+  for (const style of styles)
+    document.head.append(Object.assign(document.createElement('style'), { textContent: style }));
   const request = globalThis.fetch;
   globalThis.fetch = async (input, ...rest) =>
     files[input] ? new Response(files[input].slice(0)) : request(input, ...rest);
@@ -77,7 +81,10 @@ function start({ code, modules, files, styles, dark, allParts }) {
   own = addressOf(code);
   // The element reports errors with their lines; importing the same module tells when it has ended.
   script('module', { src: own });
-  import(own).then(() => tell({ type: 'done' }), () => {});
+  import(own).then(
+    () => tell({ type: 'done' }),
+    () => {},
+  );
 }
 
 addEventListener('message', ({ data }) => {

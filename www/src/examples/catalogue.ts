@@ -18,13 +18,20 @@ const versions: Record<string, string> = { ...dependencies, ...devDependencies }
 
 const urls = (files: Record<string, unknown>) =>
   Object.fromEntries(
-    Object.entries(files).map(([path, url]) => [path.slice(path.lastIndexOf('/') + 1), url as string]),
+    Object.entries(files).map(([path, url]) => [
+      path.slice(path.lastIndexOf('/') + 1),
+      url as string,
+    ]),
   );
 const vendors = urls(
   import.meta.glob('../../vendor/*', { query: '?url&no-inline', import: 'default', eager: true }),
 );
 const data = urls(
-  import.meta.glob('../../programs/data/*', { query: '?url&no-inline', import: 'default', eager: true }),
+  import.meta.glob('../../programs/data/*', {
+    query: '?url&no-inline',
+    import: 'default',
+    eager: true,
+  }),
 );
 
 const texts = new Map<string, Promise<string>>();
@@ -46,7 +53,9 @@ export const partOf = (name: string): Promise<string> => textAt(vendors[`vendor.
 /** All of them, by their names. */
 export async function allParts(): Promise<Record<string, string>> {
   const names = Object.keys(vendors).flatMap((file) => /gdel\.(\w+-.+)\.js$/.exec(file)?.[1] ?? []);
-  return Object.fromEntries(await Promise.all(names.map(async (name) => [name, await partOf(name)])));
+  return Object.fromEntries(
+    await Promise.all(names.map(async (name) => [name, await partOf(name)])),
+  );
 }
 
 /** The address of an example's file. */
@@ -54,7 +63,9 @@ export const addressOf = (name: string): string => new URL(data[name], location.
 
 /** The libraries that code names: it may also do so in text of which it makes a module. */
 export const namedIn = (code: string): string[] =>
-  Object.keys(packages).filter((name) => [`'${name}'`, `"${name}"`].some((quoted) => code.includes(quoted)));
+  Object.keys(packages).filter((name) =>
+    [`'${name}'`, `"${name}"`].some((quoted) => code.includes(quoted)),
+  );
 
 /** The same with those that come with them, and that they import. */
 export function neededFor(code: string): string[] {

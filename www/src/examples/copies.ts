@@ -5,8 +5,7 @@ import style from './page.css?raw';
 const packageOf = (name: string) => /^(@[^/]+\/)?[^/]+/.exec(name)?.[0] ?? name;
 
 /** Where the example's files are. */
-const filesNote = (files: readonly string[]) =>
-  files.map((name) => `${name}: ${addressOf(name)}`);
+const filesNote = (files: readonly string[]) => files.map((name) => `${name}: ${addressOf(name)}`);
 
 /** The code for a project with a bundler. */
 export function forNpm(code: string, files: readonly string[]): string {
@@ -28,9 +27,11 @@ export function forPage(title: string, code: string, files: readonly string[]): 
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width">
 <title>${title}</title>
-${filesNote(files).map((line) => `<!-- ${line} -->\n`).join('')}${stylesOf(names)
-    .map(({ cdn }) => `<link rel="stylesheet" href="${cdn}">\n`)
-    .join('')}<style>
+${filesNote(files)
+  .map((line) => `<!-- ${line} -->\n`)
+  .join('')}${stylesOf(names)
+  .map(({ cdn }) => `<link rel="stylesheet" href="${cdn}">\n`)
+  .join('')}<style>
 ${indented(style)}
 </style>
 <script type="importmap">

@@ -19,7 +19,10 @@ const colors = HighlightStyle.define([
   { tag: [tags.keyword, tags.operatorKeyword, tags.modifier], color: 'var(--code-keyword)' },
   { tag: [tags.string, tags.special(tags.string), tags.regexp], color: 'var(--code-string)' },
   { tag: [tags.number, tags.bool, tags.null], color: 'var(--code-number)' },
-  { tag: [tags.function(tags.variableName), tags.function(tags.propertyName)], color: 'var(--code-call)' },
+  {
+    tag: [tags.function(tags.variableName), tags.function(tags.propertyName)],
+    color: 'var(--code-call)',
+  },
 ]);
 
 const markLine = StateEffect.define<number | null>();
@@ -71,7 +74,7 @@ export function editorIn(
         EditorView.contentAttributes.of({ 'aria-label': 'The code of the example' }),
         EditorView.updateListener.of(({ docChanged }) => docChanged && changed()),
         keymap.of([
-          { key: 'Ctrl-Enter', mac: 'Cmd-Enter', run: () => (run(), true) },
+          { key: 'Ctrl-Enter', mac: 'Cmd-Enter', run: () => run() ?? true },
           ...defaultKeymap,
           ...historyKeymap,
         ]),

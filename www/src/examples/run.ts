@@ -21,7 +21,12 @@ async function loaded(code: string, files: readonly string[]) {
     Promise.all(stylesOf(names).map(({ text }) => text())),
     Promise.all(files.map(bytes)),
   ]);
-  return { modules, allParts: parts, styles: [style, ...styles], files: Object.fromEntries(contents) };
+  return {
+    modules,
+    allParts: parts,
+    styles: [style, ...styles],
+    files: Object.fromEntries(contents),
+  };
 }
 
 /**
@@ -50,7 +55,11 @@ export function run(
         tell({ type: 'part', name: data.name, text: await partOf(data.name) });
       else heard(data);
     } catch (error) {
-      heard({ type: 'error', message: `What the example needs did not load: ${error}`, line: null });
+      heard({
+        type: 'error',
+        message: `What the example needs did not load: ${error}`,
+        line: null,
+      });
     }
   };
   addEventListener('message', listen);
