@@ -34,7 +34,7 @@ document.body.append(note, frame);
 new Deck({
   canvas,
   parent: frame,
-  views: new OrbitView(),
+  views: new OrbitView({ orbitAxis: 'Y' }),
   controller: true,
   initialViewState: { target: [-0.02, 0.11, 0], zoom: 11, rotationX: 10, rotationOrbit: 20 },
   layers: [
@@ -46,7 +46,7 @@ new Deck({
           getColor: { value: colors, size: 3, normalized: true },
         },
       },
-      pointSize: 2.5,
+      pointSize: 2,
       material: false,
     }),
   ],

@@ -35,8 +35,8 @@ function onGrid(f) {
 
 function show(title, cells, exact) {
   const error = Math.sqrt(cells.reduce((sum, v, i) => sum + (v - exact[i]) ** 2, 0) / cells.length);
-  const figure = document.body.appendChild(document.createElement('figure'));
-  figure.innerHTML = `<canvas width=${SIZE} height=${SIZE}></canvas><figcaption></figcaption>`;
+  const figure = document.body.appendChild(document.createElement('div'));
+  figure.innerHTML = `<canvas width=${SIZE} height=${SIZE}></canvas><p></p>`;
   const [canvas, caption] = figure.children;
   caption.textContent = exact === cells ? title : `${title}: off by ${error.toFixed(3)}`;
   const context = canvas.getContext('2d');
@@ -49,7 +49,8 @@ function show(title, cells, exact) {
   for (const [x, y] of points) context.fillRect(SIZE * x - 1, SIZE * y - 1, 3, 3);
 }
 
-document.body.style = 'display: grid; grid-template-columns: repeat(auto-fit, minmax(180px, 1fr))';
+document.body.style =
+  'display: grid; gap: 12px; grid-template-columns: repeat(auto-fit, minmax(180px, 1fr))';
 const exact = onGrid(truth);
 show('What was sampled', exact, exact);
 show('Natural neighbours', natural.values, exact);

@@ -12,8 +12,7 @@ const circles = Array.from({ length: 14 }, (_, i) => ({
   y: 90 + 150 * Math.floor(i / 5) + 50 * Math.cos(3 * i),
   radius: 25 + 12 * (i % 4),
 }));
-let chosen = circles[0];
-let turn = 0;
+let [chosen, turn] = [circles[0], 0];
 
 async function draw() {
   const mine = ++turn;
@@ -25,14 +24,13 @@ async function draw() {
   const polygons = [...voronoi.cellPolygons()];
   for (const polygon of polygons) {
     const path = new Path2D(`M${polygon.join('L')}Z`);
-    context.fillStyle = `hsl(${polygon.index * 47} 50% 65%)`;
-    context.lineWidth = 1;
+    Object.assign(context, { fillStyle: `hsl(${47 * polygon.index} 50% 65%)`, lineWidth: 1 });
     context.fill(path);
     context.stroke(path);
   }
   for (const circle of circles) {
     context.beginPath();
-    context.arc(circle.x, circle.y, circle.radius, 0, 2 * Math.PI);
+    context.arc(circle.x, circle.y, Math.abs(circle.radius), 0, 2 * Math.PI);
     context.lineWidth = circle === chosen ? 4 : 1;
     context.stroke();
   }
@@ -44,8 +42,8 @@ canvas.onpointerdown = canvas.onpointermove = ({ type, buttons, pointerId, offse
   if (buttons === 0) return;
   const [x, y] = [(offsetX * width) / canvas.clientWidth, (offsetY * height) / canvas.clientHeight];
   const distance = (circle) => Math.hypot(circle.x - x, circle.y - y) - circle.radius;
-  if (type === 'pointerdown')
-    chosen = circles.reduce((a, b) => (distance(a) <= distance(b) ? a : b));
+  const nearer = (a, b) => (distance(a) <= distance(b) ? a : b);
+  if (type === 'pointerdown') chosen = circles.reduce(nearer);
   canvas.setPointerCapture(pointerId);
   Object.assign(chosen, { x, y });
   draw();
@@ -56,7 +54,6 @@ canvas.onkeydown = ({ key }) => {
   if (key === ' ') chosen = circles[(circles.indexOf(chosen) + 1) % circles.length];
   else if (at < 0) return true;
   else chosen[['x', 'y', 'radius'][at >> 1]] += at % 2 ? 8 : -8;
-  chosen.radius = Math.max(chosen.radius, 1);
   draw();
   return false;
 };

@@ -1,6 +1,6 @@
 import { delaunay2d } from 'gdel-wasm';
 
-const DOTS = 2000;
+const DOTS = 3000;
 const bitmap = await createImageBitmap(await (await fetch('picture.webp')).blob());
 const { width, height } = bitmap;
 document.body.innerHTML = `<p></p><canvas width=${3 * width} height=${3 * height}></canvas>`;
@@ -38,7 +38,7 @@ for (let round = 1; round <= 10; round++) {
   context.fillStyle = 'black';
   for (const [x, y] of dots) {
     context.beginPath();
-    context.arc(3 * x, 3 * y, 2.4, 0, 2 * Math.PI);
+    context.arc(3 * x, 3 * y, 2.2, 0, 2 * Math.PI);
     context.fill();
   }
   note.textContent = `${dots.length} dots, round ${round}: areas are off by ${(100 * error).toFixed(2)} %`;

@@ -19,6 +19,15 @@ const map = await treemap(
   { shape: [0, 0, width, height] },
 );
 
+/** How far a place is from the nearest side of a polygon. */
+function roomAt(x, y, polygon) {
+  const distances = polygon.map(([ax, ay], i) => {
+    const [bx, by] = polygon.at(i - 1);
+    return Math.abs((bx - ax) * (ay - y) - (ax - x) * (by - ay)) / Math.hypot(bx - ax, by - ay);
+  });
+  return Math.min(...distances);
+}
+
 let svg = '';
 map.cells.forEach((continent, i) => {
   for (const cell of continent.children) {
@@ -28,7 +37,7 @@ map.cells.forEach((continent, i) => {
     svg += `<polygon points="${cell.join(' ')}" fill="${color}" stroke="white">${title}</polygon>`;
     // A name in the middle of the corners, where there is room for it.
     const [x, y] = [0, 1].map((axis) => cell.reduce((sum, at) => sum + at[axis], 0) / cell.length);
-    const size = Math.min(18, Math.sqrt(cell.area) / (0.62 * name.length));
+    const size = Math.min(18, (2.4 * roomAt(x, y, cell)) / (0.6 * name.length));
     if (size > 6) svg += `<text x="${x}" y="${y + size / 3}" font-size="${size}">${name}</text>`;
   }
   const outline = continent.join(' ');

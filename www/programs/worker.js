@@ -1,5 +1,6 @@
-// A worker of your own blocks nothing but itself: there, the functions that do not wait are the fastest. In a project, this
-// text is a file with an ordinary import: new Worker(new URL('./pipeline.js', import.meta.url), { type: 'module' }).
+// A worker of your own blocks nothing but itself. There, functions that do not wait are the fastest.
+// In a project, its text is a file with an ordinary import:
+// new Worker(new URL('./pipeline.js', import.meta.url), { type: 'module' })
 const pipeline = `
 const loading = import('${import.meta.resolve('gdel-wasm')}');
 
