@@ -12,7 +12,9 @@ function torus(count) {
 }
 
 const [, , name] = process.argv;
-const points = name ? (await readPoints(await readFile(name), { name })).points : torus(4000);
+const points = name
+  ? (await readPoints(await readFile(name), { name })).points
+  : Float32Array.from(torus(4000).flat());
 const mesh = await delaunay3d(points);
 console.log(`${mesh.tetrahedra.length / 4} tetrahedra of ${mesh.points.length / 3} points`);
 

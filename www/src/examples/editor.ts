@@ -71,7 +71,8 @@ export function editorIn(
         javascript(),
         syntaxHighlighting(colors),
         marked,
-        EditorView.contentAttributes.of({ 'aria-label': 'The code of the example' }),
+        // What cannot be changed can be scrolled by keys all the same.
+        EditorView.contentAttributes.of({ 'aria-label': 'The code of the example', tabindex: '0' }),
         EditorView.updateListener.of(({ docChanged }) => docChanged && changed()),
         keymap.of([
           { key: 'Ctrl-Enter', mac: 'Cmd-Enter', run: () => run() ?? true },
