@@ -30,7 +30,7 @@ const floor = new THREE.CircleGeometry(1.6, 48).rotateX(-Math.PI / 2).translate(
 const paint = (color) => new THREE.MeshStandardMaterial({ color });
 const light = new THREE.DirectionalLight('white', 2.5);
 light.position.set(-1, 2, 3);
-const drawn = new THREE.InstancedMesh(new THREE.SphereGeometry(0.04), paint('#d2602a'), 80);
+const drawn = new THREE.InstancedMesh(new THREE.SphereGeometry(0.04, 12, 8), paint('#d2602a'), 80);
 scene.add(new THREE.Mesh(geometry, paint('#d8a47f')), new THREE.Mesh(floor, paint('#9aa5b1')));
 scene.add(drawn, light, new THREE.AmbientLight('white', 0.8));
 
