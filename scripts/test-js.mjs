@@ -29,6 +29,7 @@ const SLOW = [
   'tests/web/self-test',
   'tests/web/gpu-stand-in',
   'www/tests/gpu',
+  'www/tests/site',
   'tests/web/chromium',
 ];
 

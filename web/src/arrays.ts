@@ -1,15 +1,15 @@
 // Typed arrays of any realm: those of an iframe, of a `vm` context or of jest are no instances of
 // our classes, but work just as well.
 
-/** Types of results. They own their memory, so that `Blob`s and `postMessage` take them. */
+/** A `Uint8Array` of a result. It owns its memory, so that `Blob`s and `postMessage` take it. */
 export type Bytes = ReturnType<Uint8Array['slice']>;
-/** @see {@link Bytes} */
+/** A `Uint32Array` of a result, which owns its memory as {@link Bytes} do. */
 export type Indices = ReturnType<Uint32Array['slice']>;
-/** @see {@link Bytes} */
+/** An `Int32Array` of a result, which owns its memory as {@link Bytes} do. */
 export type SignedIndices = ReturnType<Int32Array['slice']>;
-/** @see {@link Bytes} */
+/** A `Float64Array` of a result, which owns its memory as {@link Bytes} do. */
 export type Doubles = ReturnType<Float64Array['slice']>;
-/** Interleaved coordinates. @see {@link Bytes} */
+/** Coordinates of points, one point after the other, which own their memory as {@link Bytes} do. */
 export type Coordinates = ReturnType<Float32Array['slice']> | Doubles;
 
 const TYPED_ARRAY: object = Object.getPrototypeOf(Uint8Array.prototype);

@@ -290,11 +290,11 @@ export async function alphaShape(
   return run('alphaShape', source, args, taskOptions(optionsOf(options)));
 }
 
+export interface Surface3 extends SurfaceArrays {}
 /**
  * A closed, oriented surface through the points of a 3D mesh, and the solid that it encloses. Every
  * edge belongs to two triangles, and no two triangles intersect.
  */
-export interface Surface3 extends SurfaceArrays {}
 // biome-ignore lint/suspicious/noUnsafeDeclarationMerging: the constructor assigns what the interface has.
 export class Surface3 extends Triangles {
   /** 3 vertices per triangle, counter-clockwise as seen from outside. */

@@ -22,11 +22,11 @@ import type { Polygon } from './voronoi2.js';
 /** Options of `delaunaySphere`. */
 export interface SphereOptions extends TaskOptions, Pick<RunOptions, 'backend'> {}
 
+export interface SphereMesh extends SphereArrays {}
 /**
  * The Delaunay triangulation of points on a sphere: no point is inside the circumcircle of a triangle. All
  * places, of points and queries, are longitudes and latitudes in degrees.
  */
-export interface SphereMesh extends SphereArrays {}
 // biome-ignore lint/suspicious/noUnsafeDeclarationMerging: the constructor assigns what the interface has.
 export class SphereMesh {
   /** The coordinates x, y, z, … of the points on the unit sphere. */
@@ -175,8 +175,8 @@ export class SphereMesh {
   }
 }
 
-/** The Voronoi cells of points on a sphere, as arrays and as polygons. */
 export interface SphereVoronoi extends SphereVoronoiArrays {}
+/** The Voronoi cells of points on a sphere, as arrays and as polygons. */
 // biome-ignore lint/suspicious/noUnsafeDeclarationMerging: the constructor assigns what the interface has.
 export class SphereVoronoi {
   /** @internal */

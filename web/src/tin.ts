@@ -24,8 +24,8 @@ export interface TinOptions
   maxPoints?: number | undefined;
 }
 
-/** Terrain: the surface over some of the points that is near to all of them. */
 export interface Tin extends TinArrays {}
+/** Terrain: the surface over some of the points that is near to all of them. */
 // biome-ignore lint/suspicious/noUnsafeDeclarationMerging: the constructor assigns what the interface has.
 export class Tin extends Triangles {
   /** @internal */

@@ -22,17 +22,16 @@ export const ENTRIES = [
   'treemap',
 ];
 
+/** Headings that say what kind of thing follows, on every page. */
+export const GENERIC =
+  /^(Parameters|Type Parameters|Returns|Throws|Call Signature|Extends|Extended by|Inherited from|Overrides|Examples?|Type Declaration|Implements|Implementation of|Deprecated|Default|default|See|Properties)$/;
+
 /** Returns the first sentence of what the sources say about an export. */
 function summaryOf(model) {
   const comment = model.comment ?? model.signatures?.[0]?.comment;
   const text = (comment?.summary ?? []).map((part) => part.text).join('');
-  return (
-    text
-      .replaceAll('`', '')
-      .replace(/\s+/g, ' ')
-      .match(/^.*?[.:;](?= |$)/)?.[0]
-      .replace(/[:;]$/, '.') ?? ''
-  );
+  const words = text.replace(/`|\*(?=\w)|(?<=\w)\*/g, '').replace(/\s+/g, ' ');
+  return /^.*?(\.(?= |$)|$)/.exec(words)[0];
 }
 
 /** Puts the data that the layouts show before the text of a page. */
@@ -66,7 +65,9 @@ export async function writeReference() {
     hideBreadcrumbs: true,
     hidePageHeader: true,
     parametersFormat: 'table',
-    validation: { notExported: false },
+    indexFormat: 'table',
+    // Entries name types and errors of the main one, which are no exports of theirs.
+    validation: { notExported: false, invalidLink: false },
     // The build of the package checks types.
     skipErrorChecking: true,
     logLevel: 'Warn',

@@ -2,16 +2,17 @@
 
 import { readFileSync } from 'node:fs';
 import MiniSearch from 'minisearch';
+import { GENERIC } from './reference.mjs';
 
 const fields = JSON.parse(
   readFileSync(new URL('../src/site/fields.json', import.meta.url), 'utf8'),
 );
 
-/** Headings of the reference that say what kind of thing follows, on every page. */
-const GENERIC =
-  /^(Parameters|Type Parameters|Returns|Throws|Call Signature|Extends|Extended by|Inherited from|Overrides|Examples?|Type Declaration)$/;
 /** Characters of text that a part of the reference is found by. */
 const REFERENCE_TEXT = 240;
+
+/** The signature of a function, and the tables of its parameters. */
+const SIGNATURE = /<blockquote>.*?<\/blockquote>|<h[456] .*$/gs;
 
 const textOf = (html) =>
   html
@@ -26,21 +27,30 @@ const textOf = (html) =>
 
 /** Splits a page at its headings. */
 function* partsOf({ data, url, content }) {
-  const page = { title: data.title, kind: data.kind ?? '', part: '', id: url.slice(1) };
+  const page = { title: data.title, kind: data.kind ?? '', part: '', id: url.slice(1), page: '' };
   const isReference = url.startsWith('/api/');
   const pieces = content.split(/(?=<h[23] id=")/);
-  yield { ...page, about: data.description ?? '', text: isReference ? '' : textOf(pieces[0]) };
+  yield {
+    ...page,
+    page: data.title,
+    about: data.description ?? '',
+    text: isReference ? '' : textOf(pieces[0]),
+  };
   for (const piece of pieces.slice(1)) {
     const [heading, level, id, name] = /^<h([23]) id="([^"]+)"[^>]*>(.*?)<\/h\1>/s.exec(piece);
     const part = textOf(name);
-    if (isReference && (level === '2' || GENERIC.test(part))) continue;
-    const text = textOf(piece.slice(heading.length));
+    // What is inherited is found where it comes from.
+    const isRepeated = GENERIC.test(part) || /<h\d id="inherited-from/.test(piece);
+    if (isReference && (level === '2' || isRepeated)) continue;
+    const body = piece.slice(heading.length).replace(SIGNATURE, '');
+    const text = textOf(body);
+    const [sentences = text] = body.match(/<p>.*?<\/p>/s) ?? [];
     yield {
       ...page,
       part,
       id: `${page.id}#${id}`,
-      about: text.slice(0, 160),
-      text: isReference ? text.slice(0, REFERENCE_TEXT) : text,
+      about: textOf(sentences).slice(0, 160),
+      text: `${data.title} ${isReference ? text.slice(0, REFERENCE_TEXT) : text}`,
     };
   }
 }

@@ -138,8 +138,8 @@ export async function pictureOf(page, name) {
 }
 
 /** Expects no accessibility faults in what the page shows. */
-export async function expectAccessible(page, what) {
-  const { violations } = await new AxeBuilder({ page }).analyze();
+export async function expectAccessible(page, what, axe = new AxeBuilder({ page })) {
+  const { violations } = await axe.analyze();
   assert.deepEqual(
     violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html).join(' ')}`),
     [],

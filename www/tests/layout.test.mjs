@@ -48,16 +48,18 @@ describe('on a screen', () => {
     assert.ok(stage.y + stage.height <= dock.y + 1);
   });
 
-  test('the documents are where the package says', async () => {
+  test('the documents are beside the page, and where the package says', async () => {
     const { repository } = JSON.parse(
       readFileSync(new URL('../../web/package.json', import.meta.url), 'utf8'),
     );
     const address = repository.url.match(/https:.*(?=\.git$)/)[0];
     const link = page.getByRole('link', { name: 'Docs' });
-    assert.equal(await link.getAttribute('href'), `${address}#readme`);
+    assert.equal(await link.getAttribute('href'), './guide/');
     await page.click('#help');
-    const readme = page.getByRole('link', { name: 'the package' });
-    assert.equal(await readme.getAttribute('href'), `${address}/blob/main/web/README.md`);
+    const guides = page.getByRole('link', { name: 'guides' });
+    assert.equal(await guides.getAttribute('href'), './guide/');
+    const built = page.getByRole('link', { name: 'how it is built' });
+    assert.equal(await built.getAttribute('href'), `${address}/blob/main/ARCHITECTURE.md`);
     await page.keyboard.press('Escape');
   });
 

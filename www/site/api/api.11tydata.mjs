@@ -1,5 +1,5 @@
 export default {
   layout: 'article.njk',
   section: 'entries',
-  eleventyComputed: { kind: ({ member }) => member || 'Reference' },
+  eleventyComputed: { kind: ({ member }) => member || 'API' },
 };

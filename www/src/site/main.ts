@@ -5,6 +5,8 @@ import { wireSearch } from './search';
 
 /** Gives each block of code a button that copies it. */
 function wireCopying(): void {
+  // Not over plain HTTP.
+  if (!navigator.clipboard) return;
   for (const code of document.querySelectorAll<HTMLElement>('.code')) {
     const button = create('button', { type: 'button', textContent: 'Copy' });
     button.addEventListener('click', async () => {
