@@ -383,9 +383,13 @@ describe('copies of examples run on a page of their own', () => {
       const { files } = catalogue.find((example) => example.name === name);
       await visit(`${name}/`);
       const html = await copied(page, '#copy-page');
-      for (const file of files) {
+      const links = await page
+        .locator('.files a')
+        .evaluateAll((all) => all.map(({ href }) => href));
+      for (const [i, file] of files.entries()) {
         const address = new RegExp(`<!-- ${file}: (\\S+) -->`).exec(html)[1];
-        assert.deepEqual(await (await fetch(address)).text(), read(`data/${file}`));
+        assert.equal(address, links[i]);
+        assert.equal(await (await fetch(address)).text(), read(`data/${file}`));
       }
       const copy = await newPage();
       await answer(copy.context(), html, files);

@@ -1,6 +1,7 @@
 import catalogue from '../../programs/catalogue.json';
 import { pack, unpack } from '../model/packed';
 import { byId, create } from '../ui/dom';
+import { addressOf } from './catalogue';
 import { forNpm, forPage } from './copies';
 import { editorIn } from './editor';
 import { run, type Said } from './run';
@@ -69,7 +70,16 @@ async function changedByLink(): Promise<string | null> {
   return file ? file.text() : null;
 }
 
+/** Makes links of the names of files, whose addresses change with their contents. */
+function linkFiles(): void {
+  for (const name of document.querySelectorAll<HTMLElement>('[data-file]')) {
+    const file = name.dataset.file!;
+    name.replaceChildren(create('a', { href: addressOf(file), download: file, textContent: file }));
+  }
+}
+
 async function wire(): Promise<void> {
+  linkFiles();
   if (!runs) return copies('copy-npm', () => editor.text);
   copies('copy-npm', () => forNpm(editor.text, example.files));
   copies('copy-page', () => forPage(example.title, editor.text, example.files));
