@@ -37,7 +37,7 @@ map.cells.forEach((continent, i) => {
     svg += `<polygon points="${cell.join(' ')}" fill="${color}" stroke="white">${title}</polygon>`;
     // A name in the middle of the corners, where there is room for it.
     const [x, y] = [0, 1].map((axis) => cell.reduce((sum, at) => sum + at[axis], 0) / cell.length);
-    const size = Math.min(18, (2.4 * roomAt(x, y, cell)) / (0.6 * name.length));
+    const size = Math.min(18, (2 * roomAt(x, y, cell)) / (0.6 * name.length));
     if (size > 6) svg += `<text x="${x}" y="${y + size / 3}" font-size="${size}">${name}</text>`;
   }
   const outline = continent.join(' ');

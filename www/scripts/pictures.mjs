@@ -10,8 +10,17 @@ const programs = new URL('../programs/', import.meta.url);
 const catalogue = JSON.parse(readFileSync(new URL('catalogue.json', programs)));
 const names = process.argv.slice(2);
 
-/** How long what moves has moved in its picture, in milliseconds. */
-const MOVED = { collider: 6000, moving: 500 };
+/** What there is to see by then where that comes after the code has run. */
+const LATER = {
+  collider: (frame) => frame.locator('p', { hasText: /, 2\d of 80/ }),
+  deck: (frame) => frame.locator('[data-drawn]'),
+  moving: (frame) => frame.locator('p', { hasText: /\d\d updates/ }),
+  react: (frame) => frame.locator('polygon').nth(23),
+  svelte: (frame) => frame.locator('polygon').nth(23),
+};
+
+/** Those of which the code is shown: they have words to show. */
+const WORDS = ['node', 'worker'];
 
 const server = await serve();
 const browser = await launchChromium(WEBGPU_AND_WEBGL);
@@ -20,48 +29,49 @@ const page = await browser.newPage({ viewport, reducedMotion: 'reduce' });
 // Software compiles the GPU's code for a while.
 page.setDefaultTimeout(120_000);
 
-/** Cuts the middle out of a picture, and makes it a small WebP. */
-function smaller(png) {
-  return page.evaluate(async (png) => {
-    const image = await createImageBitmap(
-      await (await fetch(`data:image/png;base64,${png}`)).blob(),
-    );
-    const [width, height] = [480, 320];
-    const scale = Math.max(width / image.width, height / image.height);
-    const [w, h] = [width / scale, height / scale];
-    const canvas = Object.assign(document.createElement('canvas'), { width, height });
-    const context = canvas.getContext('2d');
-    context.imageSmoothingQuality = 'high';
-    context.drawImage(
-      image,
-      (image.width - w) / 2,
-      (image.height - h) / 2,
-      w,
-      h,
-      0,
-      0,
-      width,
-      height,
-    );
-    return canvas.toDataURL('image/webp', 0.72).split(',')[1];
-  }, png.toString('base64'));
+/** Makes a picture a small WebP: its middle, or all of it. */
+function smaller(png, all) {
+  return page.evaluate(
+    async ([png, all]) => {
+      const image = await createImageBitmap(
+        await (await fetch(`data:image/png;base64,${png}`)).blob(),
+      );
+      const [width, height] = [480, 320];
+      const scale = Math[all ? 'min' : 'max'](width / image.width, height / image.height);
+      const [w, h] = [width / scale, height / scale];
+      const canvas = Object.assign(document.createElement('canvas'), { width, height });
+      const context = canvas.getContext('2d');
+      context.fillStyle = '#fcfbf8';
+      context.fillRect(0, 0, width, height);
+      context.imageSmoothingQuality = 'high';
+      context.drawImage(
+        image,
+        (image.width - w) / 2,
+        (image.height - h) / 2,
+        w,
+        h,
+        0,
+        0,
+        width,
+        height,
+      );
+      return canvas.toDataURL('image/webp', 0.72).split(',')[1];
+    },
+    [png.toString('base64'), all],
+  );
 }
 
-for (const { name, output } of catalogue) {
+for (const { name } of catalogue) {
   if (names.length > 0 && !names.includes(name)) continue;
   await page.goto(`${server.url}examples/${name}/`);
-  let shown = page.locator('.editor');
-  if (!output) {
-    await page.locator('main[data-state="done"]').waitFor();
-    const frame = page.frameLocator('iframe');
-    const pictures = frame.locator('svg, canvas, .leaflet-container');
-    shown =
-      (await pictures.count()) === 1 || name === 'contours'
-        ? pictures.first()
-        : frame.locator('body');
-    await page.waitForTimeout(MOVED[name] ?? 0);
-  }
-  const picture = Buffer.from(await smaller(await shown.screenshot()), 'base64');
+  const frame = page.frameLocator('iframe');
+  if (name !== 'node') await page.locator('main[data-state="done"]').waitFor();
+  await LATER[name]?.(frame).waitFor();
+  const drawing = frame.locator('svg, canvas, .leaflet-container').first();
+  const shown = WORDS.includes(name) ? page.locator('.editor') : drawing;
+  const all = name === 'natural';
+  const png = await (all ? frame.locator('body') : shown).screenshot();
+  const picture = Buffer.from(await smaller(png, all), 'base64');
   writeFileSync(new URL(`${name}.webp`, programs), picture);
   console.log(`www/programs/${name}.webp: ${picture.length} bytes`);
 }
