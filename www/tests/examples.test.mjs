@@ -10,7 +10,7 @@ import { after, before, describe, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { promisify } from 'node:util';
 import { deflateRawSync } from 'node:zlib';
-import { launchChromium, WEBGPU_AND_WEBGL } from '../../tests/web/browsers.mjs';
+import { launchChromium, launchFirefox, WEBGPU_AND_WEBGL } from '../../tests/web/browsers.mjs';
 import { copied, expectAccessible, numbers, pictureOf, serve } from './browser.mjs';
 
 const programs = new URL('../programs/', import.meta.url);
@@ -479,6 +479,19 @@ describe('what a visitor changes', () => {
       assert.match(await result.locator('body').textContent(), /^This browser offers no WebGPU/);
     }
   });
+});
+
+test('frames run in Firefox, too', async () => {
+  const firefox = await launchFirefox();
+  try {
+    const page = await firefox.newPage();
+    for (const name of ['treemap', 'worker', 'svelte']) {
+      await visit(`${name}/`, page);
+      await page.locator('main[data-state="done"]').waitFor();
+    }
+  } finally {
+    await firefox.close();
+  }
 });
 
 test('an example is a file of at most 60 lines', () => {

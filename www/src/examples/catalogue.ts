@@ -80,12 +80,13 @@ export function neededFor(code: string): string[] {
 
 /** The texts of libraries: names of one file are names of one module. */
 export function modulesOf(names: readonly string[]): Promise<{ names: string[]; text: string }[]> {
-  const files = Object.groupBy(names, (name) => packages[name].vendor);
-  const all = Object.entries(files).map(async ([file, names = []]) => ({
-    names,
-    text: await textAt(vendors[`vendor.${file}.js`]),
-  }));
-  return Promise.all(all);
+  const files = [...new Set(names.map((name) => packages[name].vendor))];
+  return Promise.all(
+    files.map(async (file) => ({
+      names: names.filter((name) => packages[name].vendor === file),
+      text: await textAt(vendors[`vendor.${file}.js`]),
+    })),
+  );
 }
 
 /** Where libraries are on the web, by their names. */

@@ -8,7 +8,10 @@ export type Said =
   | { type: 'error'; message: string; line: number | null }
   | { type: 'done' };
 
-const DOCUMENT = `<!doctype html><html lang="en"><head><meta charset="utf-8"><title>The result</title></head><body><script type="module">${boot}</script></body></html>`;
+// No module, since an import map has to come before the first one.
+const DOCUMENT = `<!doctype html><html lang="en"><head><meta charset="utf-8"><title>The result</title></head><body><script>(() => {
+${boot}
+})();</script></body></html>`;
 
 /** What the code needs, fetched. */
 async function loaded(code: string, files: readonly string[]) {
