@@ -18,8 +18,9 @@
 //                one, Rolldown cuts all pages, also the demo, into more and smaller files
 //   style        a style sheet for this page alone, such as /src/examples/weather.css
 //
-// The main element of a page has the id `main`, to which the link at the top skips. Links are addresses from the root (/guide/), which become relative, or files of the repository (repo:docs/answers.md). What is
-// written goes to www/guide, www/api, … beside the sources of the demo, where Vite finds it; git ignores it.
+// The main element of a page has the id `main`, to which the link at its top leads. Links are addresses from the root (/guide/),
+// which become relative, or files of the repository (repo:docs/answers.md). What is written goes to www/guide, www/api, … beside
+// the sources of the demo, where Vite finds it; git ignores it.
 //
 // A block of Markdown that begins with ```js run is a program of its own. tests/site.test.mjs runs it in a browser, where what
 // it logs must be what its comments `// → …` say, in order.
