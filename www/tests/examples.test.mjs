@@ -485,7 +485,7 @@ test('frames run in Firefox, too', async () => {
   const firefox = await launchFirefox();
   try {
     const page = await firefox.newPage();
-    for (const name of ['treemap', 'worker', 'svelte']) {
+    for (const name of ['worker', 'svelte']) {
       await visit(`${name}/`, page);
       await page.locator('main[data-state="done"]').waitFor();
     }
