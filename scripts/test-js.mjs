@@ -25,6 +25,7 @@ const SLOW = [
   'tests/web/caller-device',
   'www/tests/scans',
   'www/tests/demo-2d',
+  'www/tests/examples',
   'www/tests/gallery',
   'tests/web/self-test',
   'tests/web/gpu-stand-in',

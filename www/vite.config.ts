@@ -34,8 +34,8 @@ export default defineConfig({
       swDest: 'offline.js',
       globDirectory: 'dist',
       globPatterns: ['**/*.{html,js,json,css,wasm,svg,webp,woff2,gz,webmanifest}'],
-      // Ten times as large as all else, and kept when it is fetched.
-      globIgnores: ['**/dragon*'],
+      // Larger than all else, and kept when they are fetched.
+      globIgnores: ['**/dragon*', '**/vendor.*'],
       maximumFileSizeToCacheInBytes: 4e6,
       injectionPoint: 'self.__SW_MANIFEST',
       rollupFormat: 'iife',

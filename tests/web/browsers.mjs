@@ -25,6 +25,9 @@ export const WEBGPU_DRAWING = [
   '--use-angle=vulkan',
 ];
 
+/** The same beside WebGL, where a driver of the machine would be Vulkan's without SwiftShader's own WebGL. */
+export const WEBGPU_AND_WEBGL = [...WEBGPU_DRAWING.slice(0, -1), '--use-angle=swiftshader'];
+
 // A file of tests that hangs gets SIGTERM, which Playwright takes for a wish to close the browsers
 // only. When the process exits, it kills those that are left.
 process.once('SIGTERM', () => process.exit(1));

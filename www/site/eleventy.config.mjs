@@ -5,7 +5,7 @@
 //   _layouts/article.njk   the same with text in a column, and a list of the section's pages beside it
 //   _data/site.mjs         version, repository and navigation, as `site` in templates
 //   guide/NAME.md          a guide, at /guide/NAME/; `order` in its front matter is its place
-//   examples/              the examples, in the same way; index.njk lists them
+//   examples/              their index, and a page for each program of programs/catalogue.json
 //   benchmarks/            the charts, made of benches/results
 //   api/                   the reference, made by TypeDoc (reference.mjs)
 //   search.11ty.mjs        the words of all pages, for the search
@@ -105,13 +105,12 @@ export default async function configure(eleventy) {
   eleventy.addFilter('of', (pages, entry, member) =>
     pages.filter(({ data }) => data.entry === entry && data.member === member),
   );
-  for (const folder of ['guide', 'examples'])
-    eleventy.addCollection(folder, (all) =>
-      all
-        .getAll()
-        .filter(({ data, url }) => data.order && url.startsWith(`/${folder}/`))
-        .sort((a, b) => a.data.order - b.data.order),
-    );
+  eleventy.addCollection('guide', (all) =>
+    all
+      .getAll()
+      .filter(({ data, url }) => data.order && url.startsWith('/guide/'))
+      .sort((a, b) => a.data.order - b.data.order),
+  );
   const reference = (isMember) => (all) =>
     all
       .getAll()

@@ -1,4 +1,4 @@
-import { CacheFirst, type PrecacheEntry, Serwist } from 'serwist';
+import { CacheFirst, ExpirationPlugin, type PrecacheEntry, Serwist } from 'serwist';
 
 declare global {
   interface Window {
@@ -16,6 +16,14 @@ new Serwist({
     {
       matcher: ({ sameOrigin, url }) => sameOrigin && url.pathname.endsWith('.gz'),
       handler: new CacheFirst({ cacheName: 'samples' }),
+    },
+    {
+      // Libraries and files of examples, whose names change with their contents.
+      matcher: ({ sameOrigin, url }) => sameOrigin && url.pathname.includes('/assets/'),
+      handler: new CacheFirst({
+        cacheName: 'examples',
+        plugins: [new ExpirationPlugin({ maxEntries: 60 })],
+      }),
     },
   ],
 }).addEventListeners();
