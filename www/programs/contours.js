@@ -1,7 +1,7 @@
 import { delaunay2d } from 'gdel-wasm';
 import * as L from 'leaflet';
 
-// Name, longitude, latitude and the mean temperature of July of each station.
+// Name, longitude, latitude and a temperature, such as that of July, of each station.
 const csv = await (await fetch('stations.csv')).text();
 const rows = csv.trim().split('\n').slice(1);
 const stations = rows
