@@ -422,6 +422,15 @@ test('files are read, and what is broken is said', async () => {
     (await readPoints(text.encode('1 2 3\n4 5 6\n'), { format: 'xyz' })).points,
     Float64Array.of(1, 2, 3, 4, 5, 6),
   );
+  // Points in the plane.
+  const flat = text.encode('name,y,x\nA,2,1\nB,4,3\n');
+  const plane = await readPoints(flat, { format: 'csv', dimension: 2 });
+  assert.deepEqual(plane.points, Float64Array.of(1, 2, 3, 4));
+  await rejects(readPoints(flat, { format: 'csv' }), 'BAD_FILE', /z/);
+  const above = await readPoints(named, { dimension: 2 });
+  assert.equal(above.points.length, 2 * 35947);
+  assert.deepEqual(above.points.slice(0, 2), bunny.points.slice(0, 2));
+  await rejects(readPoints(flat, { format: 'csv', dimension: 4 }), 'BAD_INPUT', /2 or 3/);
   await rejects(readPoints(text.encode('1 2 3\n4 5 ?\n'), { format: 'xyz' }), 'BAD_FILE', /line 2/);
   await rejects(readPoints(text.encode('1 2 3'), { format: 'doc' }), 'UNKNOWN_FORMAT', /doc/);
   await rejects(readPoints(text.encode('1 2 3')), 'UNKNOWN_FORMAT');

@@ -282,3 +282,21 @@ test('progress goes up', async () => {
   assert.deepEqual(fractions, sorted(fractions));
   assert.equal(fractions.at(-1), 1);
 });
+
+test('items of any kind have places by a function', async () => {
+  const cities = FIVE.map(([x, y], i) => ({ name: `city ${i}`, at: { x, y } }));
+  const expected = await delaunaySphere(FIVE);
+  const sphere = await delaunaySphere(cities, { point: ({ at }) => [at.x, at.y] });
+  assert.deepEqual(sphere.points, expected.points);
+  assert.deepEqual(sphere.triangles, expected.triangles);
+  const own = new Error('mine');
+  await assert.rejects(
+    delaunaySphere(cities, {
+      point: () => {
+        throw own;
+      },
+    }),
+    own,
+  );
+  await assert.rejects(delaunaySphere(cities, { point: 'at' }), /point/);
+});

@@ -9,7 +9,7 @@ import type { Control, TaskName, Tasks } from './protocol.js';
 export function openCore(module: WebAssembly.Module): Core {
   const { glue, memory } = instantiate(makeGlue, module);
   const tasks: { [T in TaskName]?: (args: Tasks[T]['args']) => Tasks[T]['result'] } = {
-    readPoints: ({ bytes, extension }) => glue.read_points(bytes, extension),
+    readPoints: ({ bytes, extension, dimension }) => glue.read_points(bytes, extension, dimension),
     readShapes: ({ bytes, extension }) => glue.read_shapes(bytes, extension),
     generate: ({ kind, count, seed }) => glue.generate3d(kind, count, seed) as Doubles,
     write: ({ points, mesh, format }) => glue.write3d(points, mesh, format),

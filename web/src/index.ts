@@ -65,6 +65,7 @@ export {
   generate,
   generate2d,
   type ReadOptions,
+  type ReadPointsOptions,
   readPoints,
   readShapes,
   verify,

@@ -5,7 +5,7 @@ import { GdelError } from './errors.js';
 import { bad, nameOf } from './options.js';
 import { Slice } from './slices.js';
 import { throwIfAborted } from './stop.js';
-import type { Points, TaskOptions } from './types.js';
+import type { AccessorOptions, Points, TaskOptions } from './types.js';
 
 /** The largest number of points that can be triangulated. */
 const MAX_POINTS = 2 ** 27;
@@ -54,11 +54,11 @@ export async function coordinatesInSlices(
 
 /** Returns a copy of points, which nobody else uses. */
 export function copyOf(
-  points: Points,
+  points: Points | ArrayLike<unknown>,
   dimension: number,
-  { signal }: TaskOptions,
+  { signal, point }: TaskOptions & { point?: AccessorOptions<unknown>['point'] | undefined },
 ): Promise<Coordinates> {
-  const conversion = { dimension, transfer: false, point: undefined };
+  const conversion = { dimension, transfer: false, point };
   return coordinatesInSlices(points, conversion, () => throwIfAborted(signal));
 }
 

@@ -274,7 +274,10 @@ export interface Tasks {
     result: TinArrays;
   };
   generate: { args: { kind: string; count: number; seed: bigint }; result: Doubles };
-  readPoints: { args: { bytes: Uint8Array; extension: string }; result: PointCloud };
+  readPoints: {
+    args: { bytes: Uint8Array; extension: string; dimension: 2 | 3 };
+    result: PointCloud;
+  };
   readShapes: { args: { bytes: Uint8Array; extension: string }; result: Shapes };
   write: {
     args: { points: Coordinates; mesh: MeshView; format: string };

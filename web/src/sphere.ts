@@ -10,13 +10,13 @@ import type {
 } from './answers.js';
 import type { Doubles, SignedIndices } from './arrays.js';
 import { numbersOf } from './derived.js';
-import { bad, checkArrays, optionsOf, taskOptions } from './options.js';
+import { bad, checkArrays, checkFunction, optionsOf, taskOptions } from './options.js';
 import { findNearest, Rings } from './plane.js';
 import { copyOf } from './points.js';
 import type { SphereArgs, TaskName, Tasks } from './protocol.js';
 import { IN_3D, sharedMaker, triangulate } from './run.js';
 import { runShared } from './shared.js';
-import type { Points, RunOptions, Stats, TaskOptions } from './types.js';
+import type { AccessorOptions, Points, RunOptions, Stats, TaskOptions } from './types.js';
 import type { Polygon } from './voronoi2.js';
 
 /** Options of `delaunaySphere`. */
@@ -220,8 +220,18 @@ export class SphereVoronoi {
  *
  * @throws {@link GdelError}, as a rejected promise.
  */
-export async function delaunaySphere(lonLat: Points, options?: SphereOptions): Promise<SphereMesh> {
-  const { backend } = optionsOf(options);
+export function delaunaySphere(lonLat: Points, options?: SphereOptions): Promise<SphereMesh>;
+/** Returns the same for items of any kind: the option `point` returns the longitude and the latitude of one. */
+export function delaunaySphere<T>(
+  lonLat: ArrayLike<T>,
+  options: SphereOptions & Pick<AccessorOptions<T>, 'point'>,
+): Promise<SphereMesh>;
+export async function delaunaySphere(
+  lonLat: Points | ArrayLike<unknown>,
+  options?: SphereOptions & Partial<Pick<AccessorOptions<unknown>, 'point'>>,
+): Promise<SphereMesh> {
+  const { backend, point } = optionsOf(options);
+  checkFunction('point', point);
   const { signal, onProgress } = taskOptions(optionsOf(options));
   /** The options of a part of the work. */
   const part = (from: number, to: number): TaskOptions => ({
@@ -230,7 +240,7 @@ export async function delaunaySphere(lonLat: Points, options?: SphereOptions): P
       onProgress &&
       (({ phase, fraction }) => onProgress({ phase, fraction: from + (to - from) * fraction })),
   });
-  const places = await copyOf(lonLat, 2, { signal });
+  const places = await copyOf(lonLat, 2, { signal, point });
   const given = await runShared(moduleDerived, 'onSphere', { places }, { signal });
   const run = { ...part(0, 0.8), backend, transfer: true };
   const { result, place } = await triangulate(sharedMaker('auto'), IN_3D, given, run, [

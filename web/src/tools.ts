@@ -85,6 +85,15 @@ export interface ReadOptions extends TaskOptions {
   format?: string | undefined;
 }
 
+/** Options of `readPoints`. */
+export interface ReadPointsOptions extends ReadOptions {
+  /**
+   * 2 for points in the plane, of which *x* and *y* are read; a *z* is left out. Default: 3, where a file that has no *z*
+   * is an error.
+   */
+  dimension?: 2 | 3 | undefined;
+}
+
 /**
  * Reads the points of a file: PLY, OBJ, STL, XYZ, TXT, ASC, PTS, CSV, TSV, PCD, LAS, LAZ, E57, NPY,
  * and raw little-endian `f32` and `f64`.
@@ -93,9 +102,11 @@ export interface ReadOptions extends TaskOptions {
  */
 export async function readPoints(
   data: Blob | ArrayBuffer | Uint8Array,
-  options?: ReadOptions,
+  options?: ReadPointsOptions,
 ): Promise<PointCloud> {
-  return readFile('readPoints', data, options);
+  const { dimension = 3 } = optionsOf(options);
+  if (dimension !== 2 && dimension !== 3) throw bad('the option dimension', '2 or 3', dimension);
+  return readFile('readPoints', data, options, { dimension });
 }
 
 /**
@@ -114,13 +125,14 @@ export async function readShapes(
   data: Blob | ArrayBuffer | Uint8Array,
   options?: ReadOptions,
 ): Promise<Shapes> {
-  return readFile('readShapes', data, options);
+  return readFile('readShapes', data, options, {});
 }
 
 async function readFile<T extends 'readPoints' | 'readShapes'>(
   kind: T,
   data: Blob | ArrayBuffer | Uint8Array,
   options: ReadOptions | undefined,
+  more: Omit<Tasks[T]['args'], 'bytes' | 'extension'>,
 ): Promise<Tasks[T]['result']> {
   const { name, format } = optionsOf(options);
   for (const [option, value] of Object.entries({ name, format }))
@@ -137,7 +149,7 @@ async function readFile<T extends 'readPoints' | 'readShapes'>(
     );
   }
   const bytes = await bytesOf(data);
-  const args = { bytes, extension: extension.replace(/^\./, '') };
+  const args = { bytes, extension: extension.replace(/^\./, ''), ...more } as Tasks[T]['args'];
   return run(kind, args, task, [bytes.buffer]);
 }
 

@@ -262,7 +262,7 @@ export type Distribution2 =
 
 /** The points of a file. */
 export interface PointCloud {
-  /** x, y, z, x, y, z, … in the precision of the file. */
+  /** x, y, z, x, y, z, … in the precision of the file; x, y, x, y, … if `dimension` is 2. */
   points: Coordinates;
   /**
    * The number of points that are left out because they hold no measurement: NaN in a PCD file,

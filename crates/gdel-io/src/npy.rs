@@ -209,43 +209,6 @@ fn tuple(value: &[u8]) -> Option<Vec<usize>> {
     text.split(',').map(str::trim).filter(|number| !number.is_empty()).map(|number| number.parse().ok()).collect()
 }
 
-/// What the header of a file of points says, for reading them a few at a time.
-pub(super) struct Rows {
-    header: Vec<u8>,
-    /// The number of points.
-    pub(super) count: usize,
-    /// Bytes of a point.
-    pub(super) stride: usize,
-    /// The byte at which the points begin.
-    pub(super) offset: usize,
-}
-
-impl Rows {
-    /// Returns the rows of a file of `size` bytes that begins with these bytes; `None` if they are not points of `D`
-    /// dimensions, one after the other.
-    pub(super) fn new<const D: usize>(beginning: &[u8], size: u64) -> Result<Option<Self>, FormatError> {
-        let array = Array::parse_header(beginning)?;
-        let (false, &[count, columns]) = (array.fortran_order, &array.shape[..]) else { return Ok(None) };
-        let bytes = columns.checked_mul(array.size).and_then(|stride| Some((stride, stride.checked_mul(count)?)));
-        if columns != 3 && columns != D {
-            return Ok(None);
-        }
-        let Some((stride, _)) = bytes.filter(|&(_, all)| array.offset as u64 + all as u64 == size) else {
-            return Ok(None);
-        };
-        let header = beginning[..array.offset].to_vec();
-        Ok(Some(Rows { header, count, stride, offset: array.offset }))
-    }
-
-    /// Returns the points in the bytes of some rows.
-    pub(super) fn points<const D: usize>(&self, bytes: &[u8]) -> Result<PointCloud<D>, FormatError> {
-        let mut array = Array::parse_header(&self.header)?;
-        array.data = bytes;
-        array.shape[0] = bytes.len().checked_div(self.stride).unwrap_or(0);
-        array.points()
-    }
-}
-
 pub(super) fn read<const D: usize>(bytes: &[u8]) -> Result<PointCloud<D>, FormatError> {
     Array::parse(bytes)?.points()
 }
@@ -293,4 +256,50 @@ fn write_header(to: &mut impl Write, descr: &str, shape: &str) -> io::Result<()>
     to.write_all(b"\x93NUMPY\x01\x00")?;
     to.write_all(&(padded as u16 + 1).to_le_bytes())?;
     writeln!(to, "{dictionary:padded$}")
+}
+
+#[cfg(not(target_arch = "wasm32"))]
+pub(super) use rows::Rows;
+
+/// Rows a few at a time, for files that are larger than memory.
+#[cfg(not(target_arch = "wasm32"))]
+mod rows {
+    use super::{Array, FormatError, PointCloud};
+
+    /// What the header of a file of points says, for reading them a few at a time.
+    pub(crate) struct Rows {
+        header: Vec<u8>,
+        /// The number of points.
+        pub(crate) count: usize,
+        /// Bytes of a point.
+        pub(crate) stride: usize,
+        /// The byte at which the points begin.
+        pub(crate) offset: usize,
+    }
+
+    impl Rows {
+        /// Returns the rows of a file of `size` bytes that begins with these bytes; `None` if they are not points of `D`
+        /// dimensions, one after the other.
+        pub(crate) fn new<const D: usize>(beginning: &[u8], size: u64) -> Result<Option<Self>, FormatError> {
+            let array = Array::parse_header(beginning)?;
+            let (false, &[count, columns]) = (array.fortran_order, &array.shape[..]) else { return Ok(None) };
+            let bytes = columns.checked_mul(array.size).and_then(|stride| Some((stride, stride.checked_mul(count)?)));
+            if columns != 3 && columns != D {
+                return Ok(None);
+            }
+            let Some((stride, _)) = bytes.filter(|&(_, all)| array.offset as u64 + all as u64 == size) else {
+                return Ok(None);
+            };
+            let header = beginning[..array.offset].to_vec();
+            Ok(Some(Rows { header, count, stride, offset: array.offset }))
+        }
+
+        /// Returns the points in the bytes of some rows.
+        pub(crate) fn points<const D: usize>(&self, bytes: &[u8]) -> Result<PointCloud<D>, FormatError> {
+            let mut array = Array::parse_header(&self.header)?;
+            array.data = bytes;
+            array.shape[0] = bytes.len().checked_div(self.stride).unwrap_or(0);
+            array.points()
+        }
+    }
 }

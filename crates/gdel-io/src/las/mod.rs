@@ -6,6 +6,11 @@
 
 mod gps_time;
 mod laz;
+#[cfg(not(target_arch = "wasm32"))]
+mod pieces;
+
+#[cfg(not(target_arch = "wasm32"))]
+pub(super) use pieces::{Records, read_in_pieces};
 
 use crate::{
     FormatError, PointBuf, PointCloud,
@@ -35,73 +40,6 @@ const EVLR: std::ops::Range<usize> = 235..247;
 pub(super) fn read(mut bytes: Vec<u8>) -> Result<PointCloud, FormatError> {
     let start = prepare(&mut bytes)?;
     guarded(start, || decode(&bytes, start))
-}
-
-/// Reads the points without their colours, at most `most` at a time, until `take` returns `false`.
-pub(super) fn read_in_pieces(
-    mut bytes: Vec<u8>,
-    most: usize,
-    take: &mut dyn FnMut(PointBuf) -> bool,
-) -> Result<(), FormatError> {
-    let start = prepare(&mut bytes)?;
-    let mut points = Vec::new();
-    let mut goes_on = true;
-    guarded(start, || {
-        records(&bytes, start, |axes, record| {
-            if goes_on {
-                points.push(axes.point(record));
-                if points.len() == most {
-                    goes_on = take(PointBuf::F64(std::mem::take(&mut points)));
-                }
-            }
-        })
-    })?;
-    if goes_on && !points.is_empty() {
-        take(PointBuf::F64(points));
-    }
-    Ok(())
-}
-
-/// The records of a file that is not compressed, for reading them a few at a time.
-pub(super) struct Records {
-    axes: Axes,
-    /// The number of points.
-    pub(super) count: u64,
-    /// Bytes of a record.
-    pub(super) stride: usize,
-    /// The byte at which the records begin.
-    pub(super) offset: usize,
-}
-
-impl Records {
-    /// Returns how many bytes at the beginning of a file, which these are the first of, are before its points.
-    pub(super) fn offset(beginning: &[u8]) -> Option<usize> {
-        raw::Header::read_from(beginning).ok().map(|header| header.offset_to_point_data as usize)
-    }
-
-    /// Returns the records of a file of `size` bytes, of which these are before its points; `None` if they are compressed
-    /// or broken.
-    pub(super) fn new(beginning: &mut [u8], size: u64) -> Option<Self> {
-        let header = raw::Header::read_from(&*beginning).ok()?;
-        check_size(&header, usize::try_from(size).ok()?).ok()?;
-        if header.evlr.is_some() {
-            beginning.get_mut(EVLR)?.fill(0);
-        }
-        let header =
-            guarded(0, || Header::new(Cursor::new(&*beginning)).map_err(|error| in_header(error, beginning.len())));
-        let header = header.ok().filter(|header| !header.point_format().is_compressed)?;
-        Some(Records {
-            axes: Axes(*header.transforms()),
-            count: header.number_of_points(),
-            stride: header.point_format().len().into(),
-            offset: beginning.len(),
-        })
-    }
-
-    /// Returns the points in the bytes of some records.
-    pub(super) fn points(&self, bytes: &[u8]) -> Result<PointCloud, FormatError> {
-        PointCloud::new(PointBuf::F64(bytes.chunks_exact(self.stride).map(|record| self.axes.point(record)).collect()))
-    }
 }
 
 /// Checks the sizes in a file. Returns the byte at which the points begin.

@@ -25,14 +25,18 @@ pub fn point_extensions() -> Vec<String> {
     PointFormat::ALL.iter().flat_map(|format| format.extensions()).map(|&extension| extension.to_owned()).collect()
 }
 
-/// Reads a point cloud in the format of files with this extension.
+/// Reads a point cloud in the format of files with this extension, of 2 or 3 dimensions.
 #[wasm_bindgen]
-pub fn read_points(bytes: &Uint8Array, extension: &str) -> Result<JsValue, Thrown> {
+pub fn read_points(bytes: &Uint8Array, extension: &str, dimension: u32) -> Result<JsValue, Thrown> {
+    if dimension == 2 { read::<2>(bytes, extension) } else { read::<3>(bytes, extension) }
+}
+
+fn read<const D: usize>(bytes: &Uint8Array, extension: &str) -> Result<JsValue, Thrown> {
     let format = PointFormat::from_extension(extension)
         .ok_or_else(|| error("UNKNOWN_FORMAT", &format!("{extension:?} is not a known format of point clouds")))?;
     let mut content = zeros(bytes.length())?;
     bytes.copy_to(&mut content);
-    let cloud: PointCloud = format.read(content).map_err(|e| error("BAD_FILE", &e.to_string()))?;
+    let cloud: PointCloud<D> = format.read(content).map_err(|e| error("BAD_FILE", &e.to_string()))?;
     let points = match &cloud.points {
         PointBuf::F32(points) => Float32Array::new_from_slice(points.as_flattened()).into(),
         PointBuf::F64(points) => Float64Array::new_from_slice(points.as_flattened()).into(),
