@@ -150,7 +150,14 @@ def test_workers_may_be_lost(tmp_path):
     points = np.random.default_rng(6).random((3000, 3))
     whole = expected(points)
     with (
-        dask.config.set({"distributed.scheduler.allowed-failures": 10, "distributed.worker.daemon": True}),
+        dask.config.set(
+            {
+                "distributed.scheduler.allowed-failures": 10,
+                # However slow the machine is.
+                "distributed.comm.timeouts.connect": "600s",
+                "distributed.comm.timeouts.tcp": "600s",
+            }
+        ),
         distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None, silence_logs=50) as cluster,
         distributed.Client(cluster) as client,
         dask.config.set(scheduler="distributed"),
