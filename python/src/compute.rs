@@ -6,6 +6,7 @@ use gdel::{Backend, Error, Progress, Triangulator};
 use pyo3::{exceptions::PyValueError, prelude::*};
 use rayon::ThreadPool;
 use std::{
+    io,
     num::NonZeroUsize,
     ops::ControlFlow,
     sync::{
@@ -111,7 +112,7 @@ fn pool(threads: Option<usize>) -> Result<Option<Arc<ThreadPool>>, Error> {
     if let Some((.., pool)) = pools.iter().find(|&&(process, size, _)| (process, size) == (own, number)) {
         return Ok(Some(pool.clone()));
     }
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(number).build();
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(number).stack_size(STACK).build();
     let pool = Arc::new(pool.map_err(|error| Error::Threads { threads: number, reason: error.to_string() })?);
     pools.push((own, number, pool.clone()));
     Ok(Some(pool))
@@ -203,6 +204,9 @@ pub(crate) fn triangulate<T: Send>(
     triangulate_by(py, options, options.triangulator(py, points)?, points, work)
 }
 
+/// As much as the main thread has: where little is optimised, runs on the GPU need more than other threads have.
+const STACK: usize = 8 << 20;
+
 /// Runs a triangulation of so many points by what the caller has chosen. A long one runs in a thread of its own, while
 /// this one looks for Ctrl-C and reports progress.
 pub(crate) fn triangulate_by<B: Reporting, T: Send>(
@@ -221,15 +225,15 @@ pub(crate) fn triangulate_by<B: Reporting, T: Send>(
         *of_run.progress.lock().unwrap_or_else(PoisonError::into_inner) = Some(progress);
         if of_run.is_cancelled.load(Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
-    let (result, interruption) = py.detach(|| {
+    let ran = py.detach(|| {
         thread::scope(|scope| {
             let (end, ended) = channel::<()>();
             let (threads, triangulator) = (options.threads, &triangulator);
-            let run = scope.spawn(move || {
+            let run = thread::Builder::new().stack_size(STACK).spawn_scoped(scope, move || {
                 // Is dropped when the work ends, also by a panic.
                 let _end = end;
                 in_pool(threads, || work(triangulator))
-            });
+            })?;
             let mut interruption = None;
             while let Err(RecvTimeoutError::Timeout) = ended.recv_timeout(PERIOD) {
                 if interruption.is_none() {
@@ -237,9 +241,10 @@ pub(crate) fn triangulate_by<B: Reporting, T: Send>(
                     shared.is_cancelled.store(interruption.is_some(), Relaxed);
                 }
             }
-            (run.join(), interruption)
+            io::Result::Ok((run.join(), interruption))
         })
     });
+    let (result, interruption) = ran?;
     if let Some(interruption) = interruption {
         return Err(interruption);
     }
