@@ -153,6 +153,9 @@ struct Ball<const D: usize> {
     radius: f64,
 }
 
+/// 2⁻⁵⁰⁰.
+const SMALLEST: f64 = f64::from_bits((1023 - 500) << 52);
+
 impl<const D: usize> Ball<D> {
     fn around<const N: usize>(corners: &[[f64; D]; N]) -> Self
     where
@@ -162,7 +165,9 @@ impl<const D: usize> Ball<D> {
         let (offset, radius) = geometry::circumsphere(corners);
         let center = vector::plus(corners[0], offset);
         let largest = center.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
-        Ball { center, radius: radius * (1.0 + 2f64.powi(-34)) + largest * 2f64.powi(-50) }
+        let enclosing = radius * (1.0 + 2f64.powi(-34)) + largest * 2f64.powi(-50);
+        // Squares of smaller radii could underflow, of which the bounds of errors know nothing.
+        Ball { center, radius: if radius > SMALLEST { enclosing } else { f64::INFINITY } }
     }
 
     /// Returns whether the ball is surely inside a box.

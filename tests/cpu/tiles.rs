@@ -281,7 +281,7 @@ fn pieces_of_cores_and_their_shells_are_those_of_whole_tiles() {
     cores3("points in a plane", &clouds::grid(6).iter().map(|&[x, y, _]| [x, y, 1.0]).collect::<Vec<_>>(), 10);
     let far: Vec<[f64; 3]> = uniform.iter().map(|p| p.map(|x| 1e9 + x)).collect();
     cores3("far away", &far[..5000], 100);
-    for scale in [1e-300, 1e-160, 1e150, 1e300] {
+    for scale in [1e-300, 1e-162, 3e-162, 1e-161, 1e-160, 1e-150, 1e150, 1e300] {
         let scaled: Vec<[f64; 3]> = uniform[..2000].iter().map(|p| p.map(|x| scale * x)).collect();
         cores3("absurd scale", &scaled, 100);
     }
