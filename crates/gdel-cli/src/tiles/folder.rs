@@ -152,22 +152,22 @@ impl Folder {
 
     /// Writes what a tile has sent in a step: whole, or not at all.
     pub(super) fn send<const D: usize>(&self, name: &str, sent: &[(u32, Message<D>)]) -> Result<(), Failure> {
-        let messages: Vec<(u32, Vec<u8>)> = sent.iter().map(|(to, message)| (*to, message.to_bytes())).collect();
+        let messages: Vec<Vec<u8>> = sent.iter().map(|(_, message)| message.to_bytes()).collect();
         let path = self.work(name);
         let write = |to: &mut dyn Write| {
             to.write_all(&(messages.len() as u64).to_le_bytes())?;
-            for (receiver, bytes) in &messages {
-                to.write_all(&u64::from(*receiver).to_le_bytes())?;
-                to.write_all(&(bytes.len() as u64).to_le_bytes())?;
+            for ((receiver, message), bytes) in sent.iter().zip(&messages) {
+                for word in [u64::from(*receiver), message.points() as u64, bytes.len() as u64] {
+                    to.write_all(&word.to_le_bytes())?;
+                }
             }
-            messages.iter().try_for_each(|(_, bytes)| to.write_all(bytes))
+            messages.iter().try_for_each(|bytes| to.write_all(bytes))
         };
         Ok(write_file(&path, write)?)
     }
 
-    /// Returns to which tiles the file leads that [`send`](Self::send) has written, where their messages begin, and how
-    /// long they are.
-    pub(super) fn receivers(&self, name: &str) -> Result<Vec<[u64; 3]>, Failure> {
+    /// Returns the places of the messages in a file that [`send`](Self::send) has written.
+    pub(super) fn receivers(&self, name: &str) -> Result<Vec<Place>, Failure> {
         let path = self.work(name);
         let mut file = File::open(&path).map_err(read_error(&path))?;
         let size = file.metadata().map_err(read_error(&path))?.len();
@@ -177,31 +177,43 @@ impl Folder {
             Ok(u64::from_le_bytes(bytes))
         };
         let count = word()?;
-        if count > size / 16 {
+        if count > size / 24 {
             return Err(self.damaged(name, "too short"));
         }
-        let mut at = 8 + 16 * count;
+        let mut at = 8 + 24 * count;
         let mut all = Vec::new();
         for _ in 0..count {
-            let (to, length) = (word()?, word()?);
-            all.push([to, at, length]);
+            let (to, points, length) = (word()?, word()?, word()?);
+            all.push(Place { to, points, at, length });
             at = at.saturating_add(length);
         }
         if at == size { Ok(all) } else { Err(self.damaged(name, "not as long as it says")) }
     }
 
     /// Reads one of the messages of a file.
-    pub(super) fn receive<const D: usize>(&self, name: &str, [_, at, length]: [u64; 3]) -> Result<Message<D>, Failure> {
+    pub(super) fn receive<const D: usize>(&self, name: &str, place: Place) -> Result<Message<D>, Failure> {
         let path = self.work(name);
         let read = || -> io::Result<Vec<u8>> {
             let mut file = File::open(&path)?;
-            file.seek(SeekFrom::Start(at))?;
-            let mut bytes = vec![0; length as usize];
+            file.seek(SeekFrom::Start(place.at))?;
+            let mut bytes = vec![0; place.length as usize];
             file.read_exact(&mut bytes)?;
             Ok(bytes)
         };
         Message::from_bytes(&read().map_err(read_error(&path))?).map_err(|error| self.damaged(name, error))
     }
+}
+
+/// The place of a message in a file.
+pub(super) struct Place {
+    /// The tile that it is for.
+    pub(super) to: u64,
+    /// The number of points in it.
+    pub(super) points: u64,
+    /// Where it begins, in bytes.
+    at: u64,
+    /// In bytes.
+    length: u64,
 }
 
 /// Removes a file if it is there.

@@ -1,4 +1,4 @@
-//! The steps of tiles, of which one is in memory.
+//! The steps of tiles, of which a few are in memory.
 
 use super::{
     Run, State,
@@ -71,26 +71,16 @@ where
             take_one::<D, N>(run, tile, step)
         })?;
         let mut is_quiet = step > 1;
-        for tile in 0..run.state.tiles {
-            is_quiet &= run.folder.receivers(&outbox(tile, step))?.is_empty();
+        for tile in 0..tiles {
+            let places = run.folder.receivers(&outbox(tile, step))?;
+            is_quiet &= places.is_empty();
+            run.state.sent += places.iter().map(|place| place.points).sum::<u64>();
         }
-        run.state.sent += sent::<D>(&run.folder, run.state.tiles, step)?;
         (run.state.steps, run.state.is_quiet) = (step, is_quiet);
         run.save()?;
-        (0..run.state.tiles).try_for_each(|tile| remove(&run.folder.work(&outbox(tile, step - 1))))?;
+        (0..tiles).try_for_each(|tile| remove(&run.folder.work(&outbox(tile, step - 1))))?;
     }
     Ok(())
-}
-
-/// Returns how many points were sent in a step.
-fn sent<const D: usize>(folder: &Folder, tiles: u32, step: u32) -> Result<u64, Failure> {
-    let mut count = 0;
-    for name in (0..tiles).map(|tile| outbox(tile, step)) {
-        for place in folder.receivers(&name)? {
-            count += folder.receive::<D>(&name, place)?.points() as u64;
-        }
-    }
-    Ok(count)
 }
 
 /// Takes a step of one tile.
@@ -103,7 +93,7 @@ where
     let mut received = Vec::new();
     for from in 0..run.state.tiles {
         let name = outbox(from, step - 1);
-        for place in folder.receivers(&name)?.into_iter().filter(|&[to, ..]| to == u64::from(tile)) {
+        for place in folder.receivers(&name)?.into_iter().filter(|place| place.to == u64::from(tile)) {
             received.push((from, folder.receive(&name, place)?));
         }
     }
