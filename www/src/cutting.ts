@@ -15,6 +15,8 @@ const PARTS = Object.keys(CUT_PARTS) as CutPart[];
  */
 export class Cutting {
   private cut: Cut | null = null;
+  /** Which tetrahedra it is made for. */
+  private mesh = '';
   /** What is in the parts. */
   private has: Partial<CutOf['parts']> = {};
   /** What the mesh on the GPU is cut by; null until all parts are there. */
@@ -79,10 +81,16 @@ export class Cutting {
         return false;
       }
       this.cut = cut;
+      this.mesh = of.parts.tetrahedra;
       this.isRefused = !cut;
     }
     const { cut } = this;
     while (of && cut) {
+      // Another filter may have other tetrahedra: those of a surface's solid, or all.
+      if (of.parts.tetrahedra !== this.mesh) {
+        this.forget();
+        return this.begin(device, latest);
+      }
       const missing = PARTS.filter((part) => this.has[part] !== of!.parts[part]);
       if (missing.length === 0) {
         cut.replace({});

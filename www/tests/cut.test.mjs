@@ -307,6 +307,33 @@ test('a worker that does not answer is no error', async () => {
   device.destroy();
 });
 
+test('tetrahedra that take the place of those on the way have room', async () => {
+  const [few, many] = [
+    await modelOf(await generate('uniform', 100)),
+    await modelOf(await generate('uniform', 300)),
+  ];
+  const device = await openDevice();
+  let model = few;
+  let asked = 0;
+  const drawn = new Map([few, many].map((each) => [each, each.draw(REQUEST)]));
+  const cutting = new page.Cutting({
+    cutPart: (...about) => {
+      // The visitor goes on from the solid of a surface to all tetrahedra.
+      if (asked++ === 2) model = many;
+      return model.cutPart(...about);
+    },
+  });
+  assert.ok(await cutting.begin(device, () => drawn.get(model).cut));
+  const { surface, level } = drawn.get(many);
+  cutting.ready.at(level, true);
+  assert.deepEqual(
+    (await (await readerOf(device, cutting.ready))()).sort(),
+    trianglesOf(surface).sort(),
+  );
+  assert.deepEqual(device.complaints, []);
+  device.destroy();
+});
+
 test('what changes on the way to the GPU is taken over', async () => {
   const model = await modelOf(await generate('uniform', 300));
   const other = await modelOf(await generate('uniform', 200));
