@@ -2,6 +2,7 @@
 // the page.
 
 import { readdirSync } from 'node:fs';
+import { after } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { createServer } from 'vite';
 
@@ -16,4 +17,5 @@ const files = readdirSync(new URL('unit/', import.meta.url)).filter((name) =>
   name.endsWith('.test.ts'),
 );
 for (const file of files) await server.ssrLoadModule(`/tests/unit/${file}`);
-await server.close();
+// Tests load parts of the package when they first need them.
+after(() => server.close());
