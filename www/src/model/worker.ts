@@ -167,7 +167,8 @@ class ModelWorker {
   }
 
   cancel(): void {
-    this.abort.abort();
+    // What is asked for later may begin.
+    this.begin();
   }
 
   draw(request: DrawRequest): Promise<Drawing> {
