@@ -53,6 +53,9 @@ import { usePanel } from './ui/usePanel';
 import { viewPanel } from './ui/viewPanel';
 import type { Viewer } from './view/viewer';
 
+/** What is said while a radius is sought. */
+const SEEKING = { phase: 'Finding the radius', fraction: 0 };
+
 /**
  * Ties the parts together: settings and points in, the model in its worker, the drawing and the
  * panels out.
@@ -66,6 +69,7 @@ export class App implements Page {
   );
   summary: Summary | null = null;
   surface: Found | null = null;
+  isRadiusFound = false;
   live = false;
   hasGpu: boolean | null = null;
   tool: Tool = 'move';
@@ -75,6 +79,10 @@ export class App implements Page {
   private editing = false;
   /** The search for a surface, and of which run that is. */
   private finding: { run: number; done: Promise<void> } | null = null;
+  /** The search for a radius, and of which mesh that is. */
+  private seeking: { mesh: number; done: Promise<void> } | null = null;
+  /** Counts the meshes, also those of points that were changed by hand. */
+  private meshes = 0;
   /** Counts the runs: what an earlier one still says is no longer of interest. */
   private lastRun = 0;
   /** Whether a run comes from the browser's history. */
@@ -218,23 +226,27 @@ export class App implements Page {
         let done: readonly Edit[] | null = null;
         done !== this.settings.edits && run === this.lastRun;
       ) {
-        done = this.settings.edits;
-        const edited = await this.model.edit(done, this.settings.backend, this.stage.request());
+        const { edits, backend, filter, alpha } = this.settings;
+        done = edits;
+        // Each of many meshes in a row is drawn once: with its radius, if that is to be seen.
+        const request = { ...this.stage.request(), filter: { kind: filter, alpha } };
+        const edited = await this.model.edit(done, backend, request);
         if (run !== this.lastRun) return;
         const { summary } = edited;
-        this.summary = summary;
+        this.hasNewMesh(summary, filter === 'alpha' && alpha === null);
         showResult(summary, titleOf(this.settings.source));
         showStrip(summary);
-        this.stage.showEdited(edited);
+        this.stage.showEdited(edited, request);
         for (const part of this.parts) part.edited?.(summary);
       }
       this.tell();
-      await this.stage.onScreen();
     } catch (error) {
       if (run === this.lastRun) showMessage(complaint(this.settings.source, error));
     } finally {
       this.editing = false;
     }
+    // Settings may have changed meanwhile.
+    if (run === this.lastRun) await this.draw();
   }
 
   goLive(on: boolean): void {
@@ -278,7 +290,7 @@ export class App implements Page {
         });
       }
       Object.assign(before, settings);
-      this.summary = summary;
+      this.hasNewMesh(summary, false);
       this.surface = null;
       showResult(summary, titleOf(this.settings.source));
       showStrip(summary);
@@ -287,12 +299,15 @@ export class App implements Page {
       this.change(settings);
       this.address.write();
       if (this.settings.filter === 'surface') await this.findSurface();
+      await this.seekRadius();
       if (isLast()) await this.stage.open();
       return true;
     } catch (error) {
       if (isLast()) {
         this.tell();
         showMessage(complaint(source, error));
+        // The run has ended the search that was on.
+        void this.draw();
       }
       return false;
     } finally {
@@ -322,7 +337,7 @@ export class App implements Page {
         showMessage(complaint(this.settings.source, error));
     }
     if (run !== this.lastRun) return;
-    showBusy(null);
+    showBusy(this.seeking && SEEKING);
     if (this.settings.filter !== 'surface') return;
     if (!found?.triangles || (this.isSurfaceDefault && !found.suits)) {
       this.change({ filter: 'carve' });
@@ -332,6 +347,51 @@ export class App implements Page {
     for (const part of this.parts) part.found?.(found);
     this.tell();
     await this.stage.draw();
+  }
+
+  /** Takes over the summary of a new mesh. */
+  private hasNewMesh(summary: Summary, isRadiusFound: boolean): void {
+    this.meshes++;
+    this.summary = summary;
+    this.isRadiusFound = isRadiusFound;
+  }
+
+  /** Finds the radius that suits the filter `alpha` and shows it, if that is asked for and not there yet. */
+  private seekRadius(): Promise<void> {
+    // Changes by hand bring it.
+    if (!this.lacksRadius || !this.summary || this.live || this.editing) return Promise.resolve();
+    const mesh = this.meshes;
+    if (this.seeking?.mesh !== mesh) this.seeking = { mesh, done: this.seek(mesh) };
+    return this.seeking.done;
+  }
+
+  private async seek(mesh: number): Promise<void> {
+    const run = this.lastRun;
+    showBusy(SEEKING);
+    let error: unknown = null;
+    try {
+      await this.model.findRadius();
+    } catch (thrown) {
+      error = thrown;
+    }
+    if (this.seeking?.mesh === mesh) this.seeking = null;
+    if (run !== this.lastRun) return;
+    showBusy(this.seeking && SEEKING);
+    // Points that are changed meanwhile get another one.
+    if (mesh !== this.meshes || this.editing) return;
+    if (error === null) {
+      this.isRadiusFound = true;
+      await this.stage.draw();
+    } else if (this.lacksRadius) {
+      showMessage(complaint(this.settings.source, error));
+      this.change({ filter: 'all' });
+    }
+  }
+
+  /** Whether a radius is to be seen that is not found yet. */
+  private get lacksRadius(): boolean {
+    const { filter, alpha } = this.settings;
+    return filter === 'alpha' && alpha === null && !this.isRadiusFound;
   }
 
   /** Whether the surface is shown unless something else is asked for. */
@@ -353,13 +413,19 @@ export class App implements Page {
     }
     if (settings.camera !== undefined) this.stage.place();
     this.tell();
-    void this.stage.draw();
+    void this.draw();
+  }
+
+  /** Draws what the settings say, and then with the radius that this may take. */
+  private async draw(): Promise<void> {
+    await Promise.all([this.stage.draw(), whileBusy(this.seekRadius())]);
   }
 
   restore(): void {
     showResult(this.summary!, titleOf(this.settings.source));
     showStrip(this.summary!);
     void whileBusy(this.stage.again());
+    void whileBusy(this.seekRadius());
   }
 
   private get canRecord(): boolean {

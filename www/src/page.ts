@@ -17,6 +17,8 @@ export interface Page {
   readonly summary: Summary | null;
   /** The surface of the points; null before it is found, and where there is none. */
   readonly surface: Found | null;
+  /** Whether the radius that suits the filter `alpha` is found. */
+  readonly isRadiusFound: boolean;
   /** How the points are looked at and cut, chosen or not. */
   readonly view: ReturnType<typeof viewOf>;
   /** Whether points move: then the live mode draws, not the page. */

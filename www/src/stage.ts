@@ -128,9 +128,9 @@ export class Stage {
     this.give(waiting);
   }
 
-  /** Shows the mesh of points that were changed by hand. */
-  showEdited({ drawing, ...parts }: Edited): void {
-    this.drawn = JSON.stringify(this.request());
+  /** Shows the mesh of points that were changed by hand, as was asked for. */
+  showEdited({ drawing, ...parts }: Edited, request: DrawRequest): void {
+    this.drawn = JSON.stringify(request);
     if (this.waiting) Object.assign(this.waiting, parts);
     else this.give({ ...parts, facets: null });
     this.show(drawing);
@@ -230,8 +230,10 @@ export class Stage {
     const { settings, summary, view } = this.page;
     const { filter, alpha, keep, color, apart, layers, source } = settings;
     const isSurface = filter === 'surface';
+    const isSought = filter === 'alpha' && alpha === null && !this.page.isRadiusFound;
     return {
-      filter: { kind: filter, alpha },
+      // All is shown until the radius is found: drawings do not wait.
+      filter: { kind: filter, alpha: isSought ? 'any' : alpha },
       // Until the surface is found.
       pointsOnly: isSurface && !this.page.surface,
       // A surface is whole unless it was cut by hand.

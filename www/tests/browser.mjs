@@ -9,7 +9,7 @@ import { fileURLToPath } from 'node:url';
 import AxeBuilder from '@axe-core/playwright';
 import { preview } from 'vite';
 import { launchChromium, WEBGPU_DRAWING } from '../../tests/web/browsers.mjs';
-import { open, settled, tab, text, until } from './driving.mjs';
+import { open, settled, shown, tab, text, until } from './driving.mjs';
 
 export * from './driving.mjs';
 
@@ -73,6 +73,14 @@ export async function addressOf(page) {
   await page.click('#share');
   await settled(page);
   return hrefOf(page);
+}
+
+/** Expects that the page shows the alpha shape of a mesh, uncut, for the radius that suits. */
+export async function expectAlphaShape(page, mesh) {
+  const { alpha, solid } = await mesh.alphaShape({ alpha: 'auto' });
+  assert.equal(await text(page, 'alpha-value'), `α = ${Number(alpha.toPrecision(3))}`);
+  assert.equal((await shown(page)).shown, solid.length);
+  assert.equal(await page.getAttribute('#alpha-auto', 'aria-pressed'), 'true');
 }
 
 /** Clicks on a button that copies something, and returns that. */

@@ -4,6 +4,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { describe, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
+import { delaunay2d, generate2d } from 'gdel-wasm';
 import {
   addressOf,
   choose,
@@ -12,6 +13,7 @@ import {
   copied,
   drop,
   expectAccessiblePanels,
+  expectAlphaShape,
   gdel,
   generate,
   hrefOf,
@@ -185,9 +187,24 @@ describe('2D', () => {
     const { total } = await shown(page);
     await choose(page, 'filter', 'alpha');
     assert.ok(await page.locator('#alpha').isVisible());
+    await expectAlphaShape(
+      page,
+      await delaunay2d(await generate2d('thin-circle', 400, { seed: 1 })),
+    );
     await slide(page, 'alpha', 0.5);
     assert.ok((await shown(page)).shown < total);
     await pictureOf(page, '2d-alpha');
+    // Points that are changed by hand have a radius of their own.
+    await page.click('#alpha-auto');
+    await choose(page, 'tool', 'add');
+    await click(page, 0.3, 0.3);
+    assert.equal(await page.getAttribute('#alpha-auto', 'aria-pressed'), 'true');
+    const other = await open(here.browser, await addressOf(page));
+    for (const id of ['shown', 'count', 'alpha-value'])
+      assert.equal(await text(other, id), await text(page, id), id);
+    assert.deepEqual(other.problems, []);
+    await other.context().close();
+    await choose(page, 'tool', 'move');
     await choose(page, 'filter', 'all');
     assert.ok(!(await page.locator('#alpha').isVisible()));
   });

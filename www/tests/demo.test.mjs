@@ -4,6 +4,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { describe, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
+import { delaunay3d, generate as generatePoints, readPoints } from 'gdel-wasm';
 import {
   addressOf,
   choose,
@@ -12,6 +13,7 @@ import {
   copied,
   drop,
   expectAccessiblePanels,
+  expectAlphaShape,
   gdel,
   generate,
   numbers,
@@ -88,7 +90,10 @@ describe('drawing with WebGPU, triangulating on the CPU', () => {
     await choose(page, 'mode', 'solid');
     const auto = page.getByRole('button', { name: 'Auto', exact: true });
     const isAuto = () => auto.getAttribute('aria-pressed');
-    assert.equal(await isAuto(), 'true');
+    await expectAlphaShape(
+      page,
+      await delaunay3d(await generatePoints('uniform', 12, { seed: 1 })),
+    );
 
     // By hand, and on by single steps: each shows more tetrahedra, up to all of them.
     await slide(page, 'alpha', 0);
@@ -120,6 +125,77 @@ describe('drawing with WebGPU, triangulating on the CPU', () => {
     await pictureOf(page, '3d-alpha-auto');
     await choose(page, 'mode', 'slice');
     await choose(page, 'filter', 'all');
+  });
+
+  test('the radius that suits a scan is the one of the package, also in files', async () => {
+    await drop(page, 'scan.ply', bunny);
+    const { points } = await readPoints(new Blob([bunny]), { name: 'scan.ply' });
+    const mesh = await delaunay3d(points);
+    await slide(page, 'keep', 1);
+    await choose(page, 'filter', 'alpha');
+    await expectAlphaShape(page, mesh);
+    await tab(page, 'use');
+    const folder = mkdtempSync(join(tmpdir(), 'gdel-alpha-'));
+    const saved = readFileSync((await save(page, 'STL', folder))[0]);
+    rmSync(folder, { recursive: true });
+    const { surface } = await mesh.alphaShape({ alpha: 'auto' });
+    assert.equal(saved.readUInt32LE(80), surface.length / 3);
+  });
+
+  test('while a radius is sought, another one or other points may be asked for', async () => {
+    await generate(page, 'uniform', 20_000);
+    const mesh = await delaunay3d(await generatePoints('uniform', 20_000, { seed: 1 }));
+    await slide(page, 'keep', 1);
+    /** Chooses the filter, and goes on before the page knows its radius. */
+    const chooseAnd = (goOn, argument) =>
+      page.evaluate(`{
+        document.querySelector('input[name=filter][value=alpha]').click();
+        (${goOn})(${JSON.stringify(argument)});
+      }`);
+    const goTo = (hash) => {
+      location.hash = hash;
+    };
+    const waitFor = async (alpha) => {
+      const text = `α = ${Number(alpha.toPrecision(3))}`;
+      await until(
+        page,
+        (text) => document.querySelector('#alpha-value').textContent === text,
+        text,
+      );
+      await settled(page);
+    };
+
+    // A radius of the visitor's stays, and the one that suits is there when it is wanted.
+    const { hash } = new URL(await addressOf(page));
+    await chooseAnd(goTo, `${hash}&filter=alpha&alpha=0.05`);
+    await waitFor(0.05);
+    assert.equal(await page.getAttribute('#alpha-auto', 'aria-pressed'), 'false');
+    await choose(page, 'mode', 'solid');
+    await page.click('#alpha-auto');
+    await settled(page);
+    await expectAlphaShape(page, mesh);
+
+    // Who cancels sees everything, and may ask again.
+    await generate(page, 'ball', 20_000);
+    await chooseAnd(() => document.querySelector('#cancel').click());
+    await settled(page);
+    assert.match(await text(page, 'message-text'), /^Cancelled/);
+    assert.ok(await page.isChecked('input[name=filter][value=all]'));
+    await slide(page, 'keep', 1);
+    await choose(page, 'filter', 'alpha');
+    await expectAlphaShape(
+      page,
+      await delaunay3d(await generatePoints('ball', 20_000, { seed: 1 })),
+    );
+    await choose(page, 'filter', 'all');
+
+    // Other points have their own.
+    await generate(page, 'uniform', 20_000);
+    const other = await delaunay3d(await generatePoints('uniform', 500, { seed: 7 }));
+    await chooseAnd(goTo, '#points=uniform_500_7&filter=alpha&keep=1');
+    await waitFor((await other.alphaShape()).alpha);
+    await expectAlphaShape(page, other);
+    await choose(page, 'mode', 'slice');
   });
 
   test('tells about the tetrahedron under the pointer', async () => {

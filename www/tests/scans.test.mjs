@@ -7,12 +7,14 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { describe, test } from 'node:test';
 import { gzipSync } from 'node:zlib';
+import { delaunay3d } from 'gdel-wasm';
 import {
   addressOf,
   choose,
   colorBy,
   drop,
   expectAccessible,
+  expectAlphaShape,
   gdel,
   numbers,
   open,
@@ -178,6 +180,9 @@ describe('a scan', () => {
     assert.ok(await page.locator('#surface').isHidden());
     assert.match(await addressOf(page), /filter=carve/);
     await tab(page, 'view');
+    await choose(page, 'filter', 'alpha');
+    await slide(page, 'keep', 1);
+    await expectAlphaShape(page, await delaunay3d(Float32Array.from(torus(8000).flat())));
     await choose(page, 'filter', 'surface');
     assert.equal(await text(page, 'surface-text'), line);
     await choose(page, 'mode', 'slice');

@@ -1,8 +1,8 @@
 /** Which simplices are shown, before the cutting plane cuts. */
 export interface Filter {
   kind: FilterKind;
-  /** In units of the input; null for one that suits the points. */
-  alpha: number | null;
+  /** In units of the input; null for one that suits the points, `any` until that is found. */
+  alpha: number | 'any' | null;
 }
 
 export type FilterKind =
@@ -23,16 +23,25 @@ export interface Kept {
   rim: Uint8Array;
 }
 
-/** Keeps the tetrahedra whose radius is at most alpha; all without radii. */
-export function keep(radii: Float32Array | null, alpha: number, neighbors: Int32Array): Kept {
-  const kept = new Uint8Array(neighbors.length / 4);
+/**
+ * One byte a simplex: 1 for those whose radius is at most alpha. Alpha is rounded as the radii were,
+ * so that it keeps what has this radius.
+ */
+export function upTo(radii: Float32Array, alpha: number): Uint8Array {
+  const limit = Math.fround(alpha);
+  const kept = new Uint8Array(radii.length);
+  for (let t = 0; t < kept.length; t++) kept[t] = radii[t] <= limit ? 1 : 0;
+  return kept;
+}
+
+/** Keeps the tetrahedra with a 1; all if there is no list. */
+export function keep(listed: Uint8Array | null, neighbors: Int32Array): Kept {
+  const kept = listed ?? new Uint8Array(neighbors.length / 4).fill(1);
   const rim = new Uint8Array(kept.length);
-  if (!radii) {
-    kept.fill(1);
+  if (!listed) {
     for (let f = 0; f < neighbors.length; f++) if (neighbors[f] < 0) rim[f >> 2] = 1;
     return { kept, rim };
   }
-  for (let t = 0; t < kept.length; t++) kept[t] = radii[t] <= alpha ? 1 : 0;
   for (let t = 0; t < kept.length; t++) {
     if (!kept[t]) continue;
     for (let f = 4 * t; f < 4 * t + 4; f++) {

@@ -88,6 +88,9 @@ export interface DrawRequest {
   pointsOnly?: boolean;
 }
 
+/** What of a drawing may take long. */
+export type Prepared = Pick<DrawRequest, 'filter' | 'cells'>;
+
 /** What to draw, and what the legend says. */
 export interface Drawing {
   /** Null where the GPU finds it, too: see {@link DrawRequest.onGpu}. */
@@ -109,8 +112,8 @@ export interface Drawing {
   /** The height of the cutting plane in the frame. Infinite if it cuts nothing. */
   level: number;
   /**
-   * The filter's alpha, whether it is the one that suits, and the critical values that are worth a
-   * slider, ascending; null where all is shown.
+   * The filter's alpha, infinite until it is found, whether it is the one that suits, and the
+   * critical values that are worth a slider, ascending; null where the filter has none.
    */
   alpha: { value: number; isAuto: boolean; stops: Float32Array } | null;
   /** Whether this is an open surface, which has no inside. */
@@ -148,7 +151,7 @@ export interface Model {
   readonly about: About;
   summary(): Summary;
   /** Makes what a drawing needs and takes long. */
-  prepare?(request: DrawRequest): Promise<void>;
+  prepare(request: Prepared, signal?: AbortSignal): Promise<void>;
   draw(request: DrawRequest): Drawing;
   /** The simplex that a ray meets first in the last drawing. */
   pick(ray: Ray, apart: number): Picked | null;

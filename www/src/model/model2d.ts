@@ -7,7 +7,7 @@ import { flatSurface, measureTriangles, type Triangulation } from '../geometry/t
 import { type Box, type Voronoi, voronoiEdges } from '../geometry/voronoi';
 import type { CameraPose } from '../view/viewer';
 import type { About } from './about';
-import { AlphaRadii } from './alpha';
+import { AlphaRadii, askerFor } from './alpha';
 import {
   cornersOf,
   type Drawing,
@@ -15,6 +15,7 @@ import {
   MAX_FACETS,
   type Model,
   type Picked,
+  type Prepared,
   type Summary,
 } from './model';
 
@@ -59,6 +60,7 @@ export class Model2d implements Model {
       2,
       frame,
       () => this.measured,
+      askerFor(mesh),
     );
   }
 
@@ -101,18 +103,21 @@ export class Model2d implements Model {
     };
   }
 
+  prepare({ filter }: Prepared, signal?: AbortSignal): Promise<void> {
+    return this.alphas.prepare(filter, signal);
+  }
+
   draw({ filter, color, skin, voronoi }: DrawRequest): Drawing {
     const started = performance.now();
     const { measured } = this;
-    const { circumradius } = measured;
-    const alpha = this.alphas.of(filter);
-    const kept = new Uint8Array(circumradius.length);
-    const all = new Uint32Array(circumradius.length);
+    const filtered = this.alphas.kept(filter);
+    const kept = new Uint8Array(this.mesh.triangles.length / 3);
+    const all = new Uint32Array(kept.length);
     let [count, total] = [0, 0];
     for (let t = 0; t < kept.length; t++) {
       if (this.inside?.[t] === 0) continue;
       total++;
-      if (alpha && circumradius[t] > alpha.value) continue;
+      if (filtered?.[t] === 0) continue;
       kept[t] = 1;
       all[count++] = t;
     }
@@ -135,7 +140,7 @@ export class Model2d implements Model {
       keep: 1,
       half: 1,
       level: Infinity,
-      alpha,
+      alpha: this.alphas.of(filter),
       round: null,
       milliseconds: performance.now() - started,
     };

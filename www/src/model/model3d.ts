@@ -11,7 +11,7 @@ import { mapping, positionOn, QUALITY, scaleFor, scaleOf } from '../geometry/sca
 import { boundaryOf, type Surface, surfaceOf } from '../geometry/surface';
 import { detectUp, poseFor } from '../geometry/up';
 import type { About } from './about';
-import { AlphaRadii } from './alpha';
+import { AlphaRadii, askerFor } from './alpha';
 import { Body, cutOf } from './body';
 import {
   cornersOf,
@@ -22,6 +22,7 @@ import {
   MAX_PIECES,
   type Model,
   type Picked,
+  type Prepared,
   type Summary,
 } from './model';
 import { type Found, Scanned } from './scanned';
@@ -72,6 +73,7 @@ export class Model3d implements Model {
       3,
       frame,
       () => this.whole.measured,
+      askerFor(mesh),
     );
   }
 
@@ -135,7 +137,8 @@ export class Model3d implements Model {
     return this.scanned;
   }
 
-  async prepare({ cells = null }: DrawRequest): Promise<void> {
+  async prepare({ filter, cells = null }: Prepared, signal?: AbortSignal): Promise<void> {
+    await this.alphas.prepare(filter, signal);
     if (cells !== null && this.points.length / 3 <= MAX_CELLS)
       this.diagram ??= await this.mesh.voronoi({ clip: 'hull' });
   }
@@ -408,12 +411,8 @@ export class Model3d implements Model {
 
   private keptBy(filter: Filter): Kept {
     if (JSON.stringify(this.filtered?.filter) !== JSON.stringify(filter)) {
-      const { alphas } = this;
-      const alpha = alphas.of(filter)?.value ?? Infinity;
-      this.filtered = {
-        filter,
-        kept: keep(alphas.radii(filter.kind), alpha, this.bodyOf(filter).neighbors),
-      };
+      const kept = keep(this.alphas.kept(filter), this.bodyOf(filter).neighbors);
+      this.filtered = { filter, kept };
     }
     return this.filtered!.kept;
   }

@@ -23,7 +23,10 @@ export async function save(
   format: Format,
 ): Promise<SavedFile[]> {
   if (model instanceof Model3d) {
-    if (isSurface(format)) return [file(format, surfaceFile(model.surface(filter), format))];
+    if (isSurface(format)) {
+      await model.prepare({ filter });
+      return [file(format, surfaceFile(model.surface(filter), format))];
+    }
     if (format === 'TetGen') return several(await model.mesh.toTetGen());
     return [file(format, await (format === 'VTU' ? model.mesh.toVTU() : model.mesh.toNPZ()))];
   }

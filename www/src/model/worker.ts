@@ -107,12 +107,19 @@ class ModelWorker {
     });
   }
 
+  /** Finds the radius that suits the filter `alpha`, for which drawings would wait else. */
+  findRadius(): Promise<void> {
+    const filter: Filter = { kind: 'alpha', alpha: null };
+    return named(() => this.current.prepare({ filter }, this.abort.signal));
+  }
+
   /** Triangulates the 2D points with other changes, in the same frame. */
   edit(edits: readonly Edit[], backend: Backend, request: DrawRequest): Promise<Edited> {
     return named(async () => {
       const options = { backend, signal: this.begin() };
       const { frame } = this.current;
       const model = await flat(await this.triangulator, this.start, edits, options, frame);
+      await model.prepare(request, options.signal);
       this.model = model;
       this.shown.mesh(model);
       return {
@@ -175,7 +182,7 @@ class ModelWorker {
     return named(async () => {
       const model: Model = this.current;
       this.shown.mesh(model);
-      await model.prepare?.(request);
+      await model.prepare(request, this.abort.signal);
       return model.draw(request);
     });
   }

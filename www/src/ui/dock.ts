@@ -6,6 +6,12 @@ import { byId, count, measured, radios } from './dom';
 /** What the slider under the drawing changes. */
 type Mode = 'solid' | 'slice' | 'explode';
 
+/** What Auto chooses. */
+const ALPHA_SUITS =
+  'The radius that suits: the smallest at which all points hang together in one solid';
+const CARVING_SUITS =
+  'The radius that suits: the smallest at which nearly all points hang together and the solid is closed';
+
 /**
  * The controls under the drawing: how much the ball carves away, how much the plane cuts off, and
  * how far the tetrahedra are apart. One slider shows at a time.
@@ -59,6 +65,7 @@ export function dock(page: Page): Part {
       : flat
         ? 'Draw the Voronoi diagram'
         : 'Draw Voronoi cells instead of tetrahedra';
+    auto.title = filter === 'alpha' ? ALPHA_SUITS : CARVING_SUITS;
     box.dataset.mode = flat ? (filter === 'alpha' ? 'solid' : '') : mode;
     for (const radio of modes) radio.checked = radio.value === mode;
     apart.value = String(distance);
@@ -71,9 +78,11 @@ export function dock(page: Page): Part {
       keep.value = String(kept);
       const stops = used?.stops.length ?? 0;
       alpha.step = String(1 / (stops || 1000));
-      alpha.value = String(used && stops ? positionOf(used.value, used.stops) : 1);
+      // Until it is found, all is shown.
+      const bounds = used !== null && used.value < Infinity;
+      alpha.value = String(bounds && stops ? positionOf(used.value, used.stops) : 1);
       auto.setAttribute('aria-pressed', String(used?.isAuto ?? false));
-      byId('alpha-value').textContent = used
+      byId('alpha-value').textContent = bounds
         ? `α = ${measured(used.value)}`
         : page.settings.filter === 'surface'
           ? 'the surface'
@@ -88,6 +97,7 @@ export function dock(page: Page): Part {
 
 /** The position of the last critical value that is not larger than alpha. */
 function positionOf(value: number, stops: Float32Array): number {
-  const after = stops.findIndex((stop) => stop > value);
+  // Stops are rounded.
+  const after = stops.findIndex((stop) => stop > Math.fround(value));
   return Math.max(0, (after < 0 ? stops.length : after) - 1) / stops.length;
 }

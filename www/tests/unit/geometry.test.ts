@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import { describe, test } from 'node:test';
-import { keep } from '../../src/geometry/filter';
+import { keep, upTo } from '../../src/geometry/filter';
 import { facetCircumradiusSquared, measure } from '../../src/geometry/measures';
 import { FACETS, frameOf, toFrame } from '../../src/geometry/mesh';
 import { neighborsOf } from '../../src/geometry/neighbors';
@@ -83,7 +83,7 @@ const frame = frameOf(points);
 const positions = toFrame(points, frame);
 const mesh = { positions, tetrahedra, neighbors };
 const measures = measure(points, tetrahedra);
-const all = keep(null, Infinity, neighbors);
+const all = keep(null, neighbors);
 
 /** The volume that a closed surface encloses. */
 function enclosed(triangles: Float32Array): number {
@@ -172,10 +172,10 @@ describe('the cut', () => {
 describe('filters', () => {
   const carving = carvingRadii(points, tetrahedra, neighbors);
   const carved = (alpha: number) =>
-    keep(carving, alpha, neighbors).kept.reduce((sum, kept) => sum + kept, 0);
+    keep(upTo(carving, alpha), neighbors).kept.reduce((sum, kept) => sum + kept, 0);
 
   test('the alpha complex keeps what is small enough', () => {
-    const { kept } = keep(measures.circumradius, 0.1, neighbors);
+    const { kept } = keep(upTo(measures.circumradius, 0.1), neighbors);
     assert.equal(
       kept.every((k) => k === 0),
       true,
@@ -207,7 +207,7 @@ describe('filters', () => {
     // Equilateral facets with sides of √8.
     const circumradius = Math.sqrt(8 / 3);
     assert.deepEqual(
-      [0.999, 1.001].map((times) => keep(radii, times * circumradius, outside).kept[0]),
+      [0.999, 1.001].map((times) => keep(upTo(radii, times * circumradius), outside).kept[0]),
       [0, 1],
     );
   });
@@ -217,7 +217,7 @@ describe('filters', () => {
     const radii = carvingRadii(scattered.points, scattered.tetrahedra, scattered.neighbors);
     for (const alpha of [0.05, 0.1, 0.2, 0.3, 0.5, 1]) {
       const expected = carveNaively(alpha, scattered);
-      const kept = keep(radii, alpha, scattered.neighbors).kept;
+      const kept = keep(upTo(radii, alpha), scattered.neighbors).kept;
       // Radii are told apart by a tenth of a percent.
       const wrong = [...kept].filter((k, t) => k !== expected[t]).length;
       assert.ok(wrong <= 0.002 * kept.length, `${wrong} of ${kept.length} differ for ${alpha}`);
@@ -254,6 +254,7 @@ describe('filters', () => {
       3,
       frameOf(points),
       () => measures,
+      null,
     );
     const { value, isAuto, stops } = alphas.of({ kind: 'carve', alpha: null })!;
     closeTo(value, Math.SQRT1_2, 1);
