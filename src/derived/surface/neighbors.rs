@@ -55,9 +55,13 @@ impl<'a, const D: usize> Tree<'a, D> {
     ) {
         let consider = |i: u32, nearest: &mut BinaryHeap<(u64, u32)>| {
             let squared = vector::squared_norm(vector::minus(self.points[i as usize], query));
-            nearest.push((squared.to_bits(), i));
-            if nearest.len() > count {
-                nearest.pop();
+            let found = (squared.to_bits(), i);
+            if nearest.len() < count {
+                nearest.push(found);
+            } else if let Some(mut farthest) = nearest.peek_mut()
+                && found < *farthest
+            {
+                *farthest = found;
             }
         };
         if end - start <= LEAF {

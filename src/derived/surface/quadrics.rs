@@ -181,7 +181,7 @@ fn fit<const D: usize>(points: &[[f64; D]], point: [f64; D], near: &[(f64, u32)]
         .iter()
         .map(|&(squared, j)| {
             let q = vector::times(1.0 / radius, vector::minus(points[j as usize], point));
-            (q, libm::exp(-3.0 * squared / (radius * radius)))
+            (q, weight(squared / (radius * radius)))
         })
         .collect();
     let total: f64 = weighted.iter().map(|(_, weight)| weight).sum();
@@ -201,13 +201,19 @@ fn fit<const D: usize>(points: &[[f64; D]], point: [f64; D], near: &[(f64, u32)]
         let local = frame.map(|axis| vector::dot(axis, q));
         let (terms, count) = terms(local);
         for a in 0..count {
-            for b in 0..count {
-                system[a][b] += weight * terms[a] * terms[b];
+            let term = weight * terms[a];
+            for b in a..count {
+                system[a][b] += term * terms[b];
             }
-            system[a][MAX_TERMS] += weight * terms[a] * local[0];
+            system[a][MAX_TERMS] += term * local[0];
         }
     }
     let count = terms([0.0; D]).1;
+    for a in 0..count {
+        for b in 0..a {
+            system[a][b] = system[b][a];
+        }
+    }
     let coefficients = solve(system, count);
     fit.offset = vector::times(radius * coefficients[0], frame[0]);
     let squares = weighted.iter().map(|&(q, weight)| {
@@ -236,6 +242,16 @@ fn terms<const D: usize>(local: [f64; D]) -> ([f64; MAX_TERMS], usize) {
     (terms, count)
 }
 
+/// Returns the weight of a point by its squared distance as a share of the largest one: exp(−3·share), with a relative
+/// error below 0.001.
+fn weight(share: f64) -> f64 {
+    let x = 3.0 / 8.0 * share;
+    let root = 1.0 - x * (1.0 - x * (1.0 / 2.0 - x * (1.0 / 6.0 - x / 24.0)));
+    let square = root * root;
+    let fourth = square * square;
+    fourth * fourth
+}
+
 /// Returns the eigenvectors of a symmetric matrix by ascending eigenvalues, by Jacobi's rotations.
 fn axes<const D: usize>(mut matrix: [[f64; D]; D]) -> [[f64; D]; D] {
     let mut vectors: [[f64; D]; D] = std::array::from_fn(|i| std::array::from_fn(|j| f64::from(u8::from(i == j))));
@@ -243,7 +259,9 @@ fn axes<const D: usize>(mut matrix: [[f64; D]; D]) -> [[f64; D]; D] {
     for _ in 0..12 {
         for p in 0..D {
             for q in p + 1..D {
-                if matrix[p][q] == 0.0 {
+                // What does not change the diagonal in the least does not turn the axes.
+                let least = matrix[p][p].abs().min(matrix[q][q].abs());
+                if least + matrix[p][q].abs() == least {
                     continue;
                 }
                 let theta = (matrix[q][q] - matrix[p][p]) / (2.0 * matrix[p][q]);
