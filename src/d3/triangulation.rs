@@ -1,10 +1,12 @@
 //! Tetrahedra and their neighbours under construction, the outside of the hull included.
 
 use crate::{
+    d3::mesh::FACETS,
     index::NONE,
     parallel::{self, Threads},
     slots::{self, MarkedSlots},
 };
+use rustc_hash::FxHashMap;
 use std::{ops::Range, sync::atomic::Ordering::Relaxed};
 
 /// Tetrahedra are numbered below 2³⁰, because a neighbour is packed with its facet into 32 bits.
@@ -48,6 +50,45 @@ impl Triangulation3 {
     /// *k*: 4·(tetrahedron) + (facet as it is numbered there). `infinite` is the number of
     /// vertices.
     pub fn new(tetrahedra: Vec<[u32; 4]>, neighbors: Vec<[u32; 4]>, infinite: u32) -> Self {
+        Triangulation3 { tetrahedra, neighbors, infinite }
+    }
+
+    /// Creates the triangulation of a mesh, which is not checked: the inverse of [`Triangulation3::into_mesh`] without
+    /// names. `infinite` is the number of vertices. The mesh's tetrahedra keep their numbers, and one ghost per facet of
+    /// the hull follows.
+    pub(crate) fn from_mesh(mesh: FiniteMesh, infinite: u32, threads: Threads) -> Self {
+        let FiniteMesh { mut tetrahedra, neighbors: beside, hull } = mesh;
+        let count = tetrahedra.len();
+        let mut neighbors: Vec<[u32; 4]> = bytemuck::zeroed_vec(count);
+        parallel::for_chunks(threads, &mut neighbors, |start, chunk| {
+            for (t, facets) in (start as u32..).zip(chunk) {
+                *facets = beside[t as usize].map(|u| match u {
+                    NONE => NONE,
+                    u => 4 * u + place_of(beside[u as usize], t),
+                });
+            }
+        });
+        let open = parallel::joined(parallel::map_ranges(threads, 4 * count, |range| {
+            range.filter(|&f| neighbors.as_flattened()[f] == NONE).map(|f| f as u32).collect::<Vec<_>>()
+        }));
+        let sorted = |mut facet: [u32; 3]| {
+            facet.sort_unstable();
+            facet
+        };
+        let inside: FxHashMap<[u32; 3], u32> = open
+            .into_iter()
+            .map(|f| (sorted(FACETS[f as usize % 4].map(|k| tetrahedra[f as usize / 4][k])), f))
+            .collect();
+        let mut edges: FxHashMap<[u32; 2], u32> = FxHashMap::default();
+        for (ghost, &[a, b, c]) in (count as u32..).zip(&hull) {
+            edges.extend([([b, c], 4 * ghost), ([c, a], 4 * ghost + 1), ([a, b], 4 * ghost + 2)]);
+        }
+        for (ghost, &[a, b, c]) in (count as u32..).zip(&hull) {
+            let below = inside[&sorted([a, b, c])];
+            neighbors[below as usize / 4][below as usize % 4] = 4 * ghost + 3;
+            neighbors.push([edges[&[c, b]], edges[&[a, c]], edges[&[b, a]], below]);
+            tetrahedra.push([a, b, c, infinite]);
+        }
         Triangulation3 { tetrahedra, neighbors, infinite }
     }
 
@@ -215,6 +256,11 @@ impl Triangulation3 {
         });
         FiniteMesh { tetrahedra, neighbors, hull }
     }
+}
+
+/// Returns the place of a value in an array that has it.
+fn place_of(array: [u32; 4], value: u32) -> u32 {
+    (0..4).find(|&k| array[k as usize] == value).unwrap_or(0)
 }
 
 /// Slots that have no place in a mesh.

@@ -4,6 +4,7 @@ use super::{dim::Tiled, in_pieces};
 use crate::{
     dimension::Dimension,
     geometry::{self, Euclidean, Geometry, vector},
+    parallel::{self, Threads},
     slots::Slots,
 };
 
@@ -52,9 +53,15 @@ pub(super) struct Border<'a, const D: usize, T> {
 
 impl<'a, const D: usize, T> Border<'a, D, T> {
     /// Finds the simplices of a tile that have a vertex of another tile, as far as they have one from `first` on.
-    pub(super) fn new<const N: usize>(triangulation: &'a T, vertices: Vertices<'a>, first: u32) -> Self
+    pub(super) fn new<const N: usize>(
+        threads: Threads,
+        triangulation: &'a T,
+        vertices: Vertices<'a>,
+        first: u32,
+    ) -> Self
     where
         Dimension<D>: Tiled<D, N, Triangulation = T>,
+        T: Sync,
     {
         let infinite = vertices.infinite();
         let from = first.max(vertices.own);
@@ -62,9 +69,14 @@ impl<'a, const D: usize, T> Border<'a, D, T> {
         let is_new = |v: &u32| (from..infinite).contains(v);
         let belongs =
             |t: &u32| Dimension::<D>::simplex(triangulation, *t).is_some_and(|simplex| simplex.iter().any(is_new));
-        let mut simplices = Vec::new();
-        in_pieces(Dimension::<D>::slots(triangulation), &mut |piece| simplices.extend(piece.filter(belongs)));
-        Border { triangulation, vertices, simplices }
+        let parts = parallel::map_ranges(threads, Dimension::<D>::slots(triangulation) as usize, |range| {
+            let mut simplices = Vec::new();
+            in_pieces(range.len() as u32, &mut |piece| {
+                simplices.extend(piece.map(|t| range.start as u32 + t).filter(&belongs));
+            });
+            simplices
+        });
+        Border { triangulation, vertices, simplices: parallel::joined(parts) }
     }
 
     /// Sends the tile's own vertices of simplices near the border whose circumspheres meet the boxes of other tiles:

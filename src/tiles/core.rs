@@ -85,7 +85,7 @@ where
         let Some(triangulation) = triangulation else { return Ok(core) };
         let is_final = parallel::with_threads(threads, |threads| Ok(self.final_slots(threads, &triangulation)))?;
         let mut is_shell = vec![false; own];
-        for t in (0..Dimension::<D>::slots(&triangulation)).filter(|&t| !is_final[t as usize]) {
+        for (t, _) in (0..).zip(&is_final).filter(|&(_, &is_final)| !is_final) {
             let vertices = Dimension::<D>::simplex(&triangulation, t);
             vertices.iter().flatten().filter(|&&v| v < self.cloud.own).for_each(|&v| is_shell[v as usize] = true);
         }

@@ -12,9 +12,12 @@ use crate::{
         verify::{self, Complex},
     },
     dimension::Dimension,
+    error::Error,
     index::NONE,
     options::Winding,
+    parallel::{self, Threads},
     predicates::{Sign, orient2d},
+    triangulator::Triangulator,
     verify::{
         Check,
         input::{Input, dimension_2d},
@@ -44,13 +47,14 @@ impl Tiled<2, 3> for Dimension<2> {
         [triangulation.triangles, triangulation.neighbors]
     }
 
-    fn rename(triangulation: &mut Triangulation2, names: &[u32], infinite: u32) {
+    fn rename(threads: Threads, triangulation: &mut Triangulation2, names: &[u32], infinite: u32) {
         triangulation.infinite = infinite;
-        let vertices = triangulation.triangles.as_flattened_mut();
-        in_pieces(vertices.len() as u32, &mut |piece| {
-            for v in &mut vertices[piece.start as usize..piece.end as usize] {
-                *v = names.get(*v as usize).copied().unwrap_or(infinite);
-            }
+        parallel::for_chunks(threads, triangulation.triangles.as_flattened_mut(), |_, vertices| {
+            in_pieces(vertices.len() as u32, &mut |piece| {
+                for v in &mut vertices[piece.start as usize..piece.end as usize] {
+                    *v = names.get(*v as usize).copied().unwrap_or(infinite);
+                }
+            });
         });
     }
 
@@ -61,6 +65,15 @@ impl Tiled<2, 3> for Dimension<2> {
             let vertices = &mut vertices[piece.start as usize..piece.end as usize];
             vertices.iter_mut().filter(|v| **v == before).for_each(|v| *v = infinite);
         });
+    }
+
+    fn delaunay(triangulator: &Triangulator, points: &[[f64; 2]]) -> Result<Mesh2, Error> {
+        triangulator.clone().winding(Winding::CounterClockwise).delaunay2d(points)
+    }
+
+    fn of_mesh(_threads: Threads, mesh: Mesh2, infinite: u32) -> Triangulation2 {
+        let Mesh2 { triangles, halfedges, hull, .. } = mesh;
+        Triangulation2::from_mesh(triangles, halfedges, &hull, infinite, Winding::CounterClockwise)
     }
 
     fn to_mesh(simplex: [u32; 3], winding: Winding) -> [u32; 3] {

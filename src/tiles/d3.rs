@@ -7,16 +7,19 @@ use super::{
 use crate::{
     d3::{
         Mesh3,
-        triangulation::{Triangulation3, state},
+        triangulation::{FiniteMesh, Triangulation3, state},
         verify::{
             complex::{self, Complex, Side},
             geometry,
         },
     },
     dimension::Dimension,
+    error::Error,
     index::NONE,
     options::Winding,
+    parallel::{self, Threads},
     predicates::{Sign, orient3d},
+    triangulator::Triangulator,
     verify::{
         Check,
         input::{Input, dimension_3d},
@@ -44,15 +47,16 @@ impl Tiled<3, 4> for Dimension<3> {
         [triangulation.tetrahedra, triangulation.neighbors]
     }
 
-    fn rename(triangulation: &mut Triangulation3, names: &[u32], infinite: u32) {
+    fn rename(threads: Threads, triangulation: &mut Triangulation3, names: &[u32], infinite: u32) {
         triangulation.infinite = infinite;
-        let simplices = &mut triangulation.tetrahedra;
-        in_pieces(simplices.len() as u32, &mut |piece| {
-            for simplex in &mut simplices[piece.start as usize..piece.end as usize] {
-                if simplex[0] & state::MASK != state::FREE {
-                    *simplex = simplex.map(|v| names.get(v as usize).copied().unwrap_or(infinite));
+        parallel::for_chunks(threads, &mut triangulation.tetrahedra, |_, simplices| {
+            in_pieces(simplices.len() as u32, &mut |piece| {
+                for simplex in &mut simplices[piece.start as usize..piece.end as usize] {
+                    if simplex[0] & state::MASK != state::FREE {
+                        *simplex = simplex.map(|v| names.get(v as usize).copied().unwrap_or(infinite));
+                    }
                 }
-            }
+            });
         });
     }
 
@@ -63,6 +67,15 @@ impl Tiled<3, 4> for Dimension<3> {
             let simplices = &mut simplices[piece.start as usize..piece.end as usize];
             simplices.iter_mut().filter(|t| t[3] == before).for_each(|t| t[3] = infinite);
         });
+    }
+
+    fn delaunay(triangulator: &Triangulator, points: &[[f64; 3]]) -> Result<Mesh3, Error> {
+        triangulator.delaunay3d(points)
+    }
+
+    fn of_mesh(threads: Threads, mesh: Mesh3, infinite: u32) -> Triangulation3 {
+        let Mesh3 { tetrahedra, neighbors, hull, .. } = mesh;
+        Triangulation3::from_mesh(FiniteMesh { tetrahedra, neighbors, hull }, infinite, threads)
     }
 
     fn to_mesh(simplex: [u32; 4], _winding: Winding) -> [u32; 4] {

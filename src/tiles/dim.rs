@@ -2,9 +2,12 @@
 
 use crate::{
     cpu::Incremental,
+    error::Error,
     options::Winding,
+    parallel::Threads,
     predicates::Sign,
     slots::Slots,
+    triangulator::Triangulator,
     verify::{Check, input::Input, report::Findings},
 };
 use std::fmt::Debug;
@@ -28,10 +31,21 @@ pub trait Tiled<const D: usize, const N: usize>: Incremental<D, Triangulation: S
     fn into_arrays(triangulation: Self::Triangulation) -> [Vec<[u32; N]>; 2];
 
     /// Makes vertex *v* `names[v]`, where there are names; the infinite vertex becomes `infinite`.
-    fn rename(triangulation: &mut Self::Triangulation, names: &[u32], infinite: u32);
+    fn rename(threads: Threads, triangulation: &mut Self::Triangulation, names: &[u32], infinite: u32);
 
     /// Gives the infinite vertex another number.
     fn move_infinite(triangulation: &mut Self::Triangulation, infinite: u32);
+
+    /// Returns the mesh that a triangulator makes of points.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Triangulator::delaunay3d`].
+    fn delaunay(triangulator: &Triangulator, points: &[[f64; D]]) -> Result<Self::Mesh, Error>;
+
+    /// Returns the triangulation of a mesh that [`delaunay`](Self::delaunay) has made, with ghosts; `infinite` is the
+    /// number of its points.
+    fn of_mesh(threads: Threads, mesh: Self::Mesh, infinite: u32) -> Self::Triangulation;
 
     /// Returns the vertices of a simplex as a mesh has them.
     fn to_mesh(simplex: [u32; N], winding: Winding) -> [u32; N];

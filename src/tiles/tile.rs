@@ -20,10 +20,12 @@ use crate::{
         order::{Distinct, Order, insertion_order},
         points::Points,
     },
+    mesh::MeshInfo,
     options::Options,
     parallel::{self, Threads},
     predicates::filter::PredicateContext,
     stats::{Phase, Stats},
+    triangulator::Triangulator,
 };
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::sync::Arc;
@@ -197,6 +199,44 @@ where
     /// [`Error::Cancelled`], [`Error::TooManyPoints`], [`Error::TooManySimplices`] and [`Error::OutOfMemory`]. After
     /// an error the tile cannot go on.
     pub fn step(&mut self, received: Vec<(u32, Message<D>)>) -> Result<Vec<(u32, Message<D>)>, Error> {
+        self.take_step(None, received)
+    }
+
+    /// Takes a step as [`step`](Self::step) does, in which `triangulator` makes the mesh of the points that the tile
+    /// knows, which is most of the second step: for example on a GPU of its own. The tile is the same in the end.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use gdel::{Triangulator, tiles::{Plan, Survey, Tile}};
+    ///
+    /// let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0f64]];
+    /// let plan = Plan::new(Survey::<2>::new(&points, 0, 1)?, 1);
+    /// let mut tile = Tile::<2, 3>::new(plan, 0, points.to_vec(), vec![0, 1, 2, 3])?;
+    /// let triangulator = Triangulator::new();
+    /// tile.step_on(&triangulator, Vec::new())?;
+    /// tile.step_on(&triangulator, Vec::new())?;
+    /// assert_eq!(tile.finish()?.simplices.len(), 2);
+    /// # Ok::<(), gdel::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`step`](Self::step) and those of [`Triangulator::delaunay3d`]. Blocks the thread.
+    pub fn step_on(
+        &mut self,
+        triangulator: &Triangulator,
+        received: Vec<(u32, Message<D>)>,
+    ) -> Result<Vec<(u32, Message<D>)>, Error> {
+        self.take_step(Some(triangulator), received)
+    }
+
+    /// Takes a step. A triangulator makes the mesh if there is one.
+    fn take_step(
+        &mut self,
+        on: Option<&Triangulator>,
+        received: Vec<(u32, Message<D>)>,
+    ) -> Result<Vec<(u32, Message<D>)>, Error> {
         if received.iter().any(|&(from, _)| from >= self.plan.tiles() || from == self.number) {
             return Err(Error::BadMessage { reason: "its sender is not another tile" });
         }
@@ -206,13 +246,17 @@ where
             1 if received.is_empty() => Ok(self.hello()),
             1 => Err(UNEXPECTED),
             2 => {
-                self.begin(threads, received)?;
-                Ok(self.outgoing(0, true))
+                self.begin(threads, on, received)?;
+                Ok(self.outgoing(threads, 0, true))
             }
             _ => {
                 let first = self.cloud.points.len();
-                self.add(threads, received)?;
-                Ok(if first == self.cloud.points.len() { Vec::new() } else { self.outgoing(first as u32, false) })
+                self.add(threads, on, received)?;
+                Ok(if first == self.cloud.points.len() {
+                    Vec::new()
+                } else {
+                    self.outgoing(threads, first as u32, false)
+                })
             }
         })
     }
@@ -247,7 +291,7 @@ where
     /// Ends the steps: returns the part without simplices, and the triangulation if there is one.
     pub(super) fn end(&mut self) -> Result<(Part<N>, Option<Triangulation<D>>), Error> {
         let threads = self.options.threads;
-        parallel::with_threads(threads, |threads| self.awake(threads))?;
+        parallel::with_threads(threads, |threads| self.awake(threads, None))?;
         let duplicates = self.cloud.indices.iter().copied().zip(self.duplicate_of.iter().copied());
         let duplicates = duplicates.filter(|&(_, first)| first != NONE).map(Into::into).collect();
         Ok((Part { duplicates, ..Part::new(self.plan.dimension()) }, self.triangulation.take()))
@@ -260,9 +304,9 @@ where
     }
 
     /// Triangulates all points that the tile knows if it has begun and has no triangulation.
-    pub(super) fn awake(&mut self, threads: Threads) -> Result<(), Error> {
+    fn awake(&mut self, threads: Threads, on: Option<&Triangulator>) -> Result<(), Error> {
         let is_begun = self.steps > 1 && self.cloud.own > 0;
-        if is_begun && self.triangulation.is_none() { self.triangulate(threads) } else { Ok(()) }
+        if is_begun && self.triangulation.is_none() { self.triangulate(threads, on) } else { Ok(()) }
     }
 
     /// Returns how the tile was computed so far.
@@ -295,7 +339,12 @@ where
     }
 
     /// Triangulates the tile's own points and the common ones.
-    fn begin(&mut self, threads: Threads, received: Vec<(u32, Message<D>)>) -> Result<(), Error> {
+    fn begin(
+        &mut self,
+        threads: Threads,
+        on: Option<&Triangulator>,
+        received: Vec<(u32, Message<D>)>,
+    ) -> Result<(), Error> {
         let mut first_of = FxHashMap::default();
         let mut heard = FxHashSet::default();
         for (from, message) in received {
@@ -321,12 +370,17 @@ where
             }
         }
         self.cloud.common = self.cloud.owners.len() as u32;
-        self.triangulate(threads)
+        self.triangulate(threads, on)
     }
 
     /// Triangulates all points that the tile knows.
-    fn triangulate(&mut self, threads: Threads) -> Result<(), Error> {
+    fn triangulate(&mut self, threads: Threads, on: Option<&Triangulator>) -> Result<(), Error> {
         self.check_count()?;
+        if let Some(triangulator) = on
+            && usize::from(self.plan.dimension()) == D
+        {
+            return self.triangulate_on(threads, triangulator);
+        }
         let points = Points::F64(&self.cloud.points);
         let lattice = Lattice::fit_by(threads, points)?;
         let Distinct { mut order, rounds, duplicate_of } =
@@ -344,7 +398,29 @@ where
         let context = PredicateContext::new_by(threads, points, &lattice, order).ranked(&self.cloud.indices);
         let mut triangulation = Dimension::<D>::triangulate(threads, &context, &rounds, &self.options)?;
         self.stats.exact = context.exact_counts();
-        Dimension::<D>::rename(&mut triangulation, &context.into_input_indices(), points.len() as u32);
+        Dimension::<D>::rename(threads, &mut triangulation, &context.into_input_indices(), points.len() as u32);
+        self.triangulation = Some(triangulation);
+        Ok(())
+    }
+
+    /// Triangulates all points that the tile knows by a triangulator. It breaks ties by the order of points, so they are in
+    /// that of their indices.
+    fn triangulate_on(&mut self, threads: Threads, triangulator: &Triangulator) -> Result<(), Error> {
+        let Cloud { points, indices, own, .. } = &self.cloud;
+        let mut order: Vec<u32> = (0..points.len() as u32).collect();
+        // Most ascend already, which this sort is fast for.
+        order.sort_by_key(|&v| indices[v as usize]);
+        let sorted: Vec<[f64; D]> = order.iter().map(|&v| points[v as usize]).collect();
+        let mesh = Dimension::<D>::delaunay(triangulator, &sorted)?;
+        self.duplicate_of = vec![NONE; *own as usize];
+        for (&v, &first) in order.iter().zip(mesh.duplicate_of()).filter(|&(_, &first)| first != NONE) {
+            let duplicate_of = self.duplicate_of.get_mut(v as usize).ok_or(EQUAL)?;
+            *duplicate_of = indices[order[first as usize] as usize];
+        }
+        self.stats = mesh.stats().clone();
+        let infinite = points.len() as u32;
+        let mut triangulation = Dimension::<D>::of_mesh(threads, mesh, infinite);
+        Dimension::<D>::rename(threads, &mut triangulation, &order, infinite);
         self.triangulation = Some(triangulation);
         Ok(())
     }
@@ -356,7 +432,12 @@ where
     }
 
     /// Inserts what other tiles have sent.
-    fn add(&mut self, threads: Threads, received: Vec<(u32, Message<D>)>) -> Result<(), Error> {
+    fn add(
+        &mut self,
+        threads: Threads,
+        on: Option<&Triangulator>,
+        received: Vec<(u32, Message<D>)>,
+    ) -> Result<(), Error> {
         let before = self.cloud.points.len();
         let mut received_from = Vec::new();
         for (from, message) in received {
@@ -381,7 +462,7 @@ where
             }
         }
         self.check_count()?;
-        let Some(triangulation) = &mut self.triangulation else { return self.awake(threads) };
+        let Some(triangulation) = &mut self.triangulation else { return self.awake(threads, on) };
         let points = Points::F64(&self.cloud.points);
         let lattice = Lattice::fit_by(threads, points)?;
         let new = points.range(before..points.len());
@@ -407,10 +488,10 @@ where
 
     /// Returns what other tiles have to know of the simplices that have a vertex from `first` on; at the beginning also
     /// what they will probably need.
-    fn outgoing(&mut self, first: u32, is_beginning: bool) -> Vec<(u32, Message<D>)> {
+    fn outgoing(&mut self, threads: Threads, first: u32, is_beginning: bool) -> Vec<(u32, Message<D>)> {
         let Some(triangulation) = &self.triangulation else { return Vec::new() };
         let mut sent = std::mem::take(&mut self.sent);
-        let border = Border::new(triangulation, self.vertices(), first);
+        let border = Border::new(threads, triangulation, self.vertices(), first);
         let mut outgoing = vec![Vec::new(); sent.len()];
         // The tile that each vertex was last sent to: most simplices around a vertex have the same neighbours.
         let mut last = vec![NONE; self.cloud.points.len()];

@@ -28,6 +28,8 @@ use shared_device::{SharedDevice, shared};
 #[cfg(feature = "gpu")]
 use state::Choice;
 
+#[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
+use crate::gpu::AdapterSummary;
 #[cfg(feature = "gpu")]
 use crate::gpu::{AdapterChoice, Gpu};
 use crate::{
@@ -75,6 +77,33 @@ impl Triangulator {
     /// Creates a triangulator with [`Backend::Auto`] on the adapter that the system recommends.
     pub fn new() -> Self {
         Triangulator::default()
+    }
+
+    /// Returns a triangulator for each GPU of this machine that is hardware, in the order of [`adapters`]; none if there
+    /// is only software. Where a GPU has several drivers, only one counts.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use gdel::{Triangulator, tiles::Tile};
+    /// # fn step(tiles: &mut [Tile<3, 4>]) -> Result<(), gdel::Error> {
+    /// // Each GPU takes the next step of a tile.
+    /// let gpus = Triangulator::of_each_gpu();
+    /// std::thread::scope(|scope| {
+    ///     let steps = gpus.iter().zip(tiles).map(|(gpu, tile)| scope.spawn(|| tile.step_on(gpu, Vec::new())));
+    ///     steps.collect::<Vec<_>>();
+    /// });
+    /// # Ok(())
+    /// # }
+    /// ```
+    #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
+    pub fn of_each_gpu() -> Vec<Triangulator> {
+        let adapters = adapters();
+        let Some(first) = adapters.iter().find(|adapter| !adapter.software) else { return Vec::new() };
+        let numbered = adapters.iter().enumerate();
+        let is_one = |&(_, adapter): &(usize, &AdapterSummary)| !adapter.software && adapter.backend == first.backend;
+        let choices = numbered.filter(is_one).map(|(index, _)| AdapterChoice::Index(index));
+        choices.map(|choice| Triangulator::new().adapter(choice)).collect()
     }
 
     /// Returns the triangulator of the functions [`delaunay3d`](crate::delaunay3d) and
@@ -394,6 +423,6 @@ impl Triangulator {
 /// }
 /// ```
 #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
-pub fn adapters() -> Vec<crate::gpu::AdapterSummary> {
+pub fn adapters() -> Vec<AdapterSummary> {
     pollster::block_on(crate::gpu::adapters())
 }

@@ -16,6 +16,7 @@ mod outcomes;
 mod reading;
 mod resident;
 mod statistics;
+mod tiles;
 mod used;
 
 use gdel::{

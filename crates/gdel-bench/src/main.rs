@@ -13,6 +13,7 @@ mod queries;
 mod row;
 mod run;
 mod surface;
+mod tiles;
 
 use clap::Parser;
 use std::{error::Error, process::ExitCode};
@@ -29,6 +30,7 @@ enum Command {
     Answers(answers::Arguments),
     Points(points::Arguments),
     Surface(surface::Arguments),
+    Tiles(tiles::Arguments),
 }
 
 fn main() -> ExitCode {
@@ -41,6 +43,7 @@ fn main() -> ExitCode {
         Command::Answers(arguments) => answers::run(&arguments),
         Command::Points(arguments) => points::run(&arguments),
         Command::Surface(arguments) => surface::run(&arguments),
+        Command::Tiles(arguments) => tiles::run(&arguments),
     };
     match measured {
         Ok(()) => ExitCode::SUCCESS,

@@ -89,7 +89,8 @@ pub(super) struct Arguments {
     refine: Refine,
     #[command(flatten)]
     tiling: Tiling,
-    /// Where to compute; the mesh is the same everywhere
+    /// Where to compute; the mesh is the same everywhere. With --tiles, all GPUs of the machine work, each on a tile of
+    /// its own
     #[arg(long, value_enum, default_value_t = BackendName::Auto)]
     backend: BackendName,
     /// How many threads the CPU backend uses [default: all]
@@ -203,10 +204,11 @@ where
         tiling: &arguments.tiling,
         force: arguments.force,
         options: Options { threads: arguments.threads, ..Options::default() },
+        devices: tiles::devices(arguments.backend),
         verify: arguments.verify,
         stats: arguments.stats,
     };
-    tiles::run::<M, D, N>(folder, &request)
+    tiles::run::<M, D, N>(folder, request)
 }
 
 fn usage<T>(kind: ErrorKind, what: &str) -> Result<T, Failure> {

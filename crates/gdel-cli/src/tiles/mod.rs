@@ -15,15 +15,18 @@ use crate::{
     failure::{Failure, conclude},
     progress::Progress,
     report::{StatsForm, print},
+    triangulate::BackendName,
 };
 use clap::{Args, ValueEnum};
 use folder::Folder;
 use gdel::{
+    Triangulator,
     internals::{
         Options,
         dimension::Dimension,
         geometry::{Euclidean, Geometry},
     },
+    stats::Stats,
     tiles::{Plan, Provable},
     verify::Report as Proof,
 };
@@ -48,7 +51,7 @@ pub(crate) struct Tiling {
     /// Write a folder with a mesh in tiles: for points and a mesh that are larger than memory. What is unfinished goes on
     /// when the same command is run again
     #[arg(long, value_name = "FOLDER", conflicts_with_all = ["outputs", "sphere", "rescale", "weights", "radii"])]
-    #[arg(conflicts_with_all = ["edges", "fill", "split", "repeat", "backend"])]
+    #[arg(conflicts_with_all = ["edges", "fill", "split", "repeat"])]
     pub(crate) tiles: Option<PathBuf>,
     /// Use about so much memory: a number of bytes, or as in 8GB or 500MB
     #[arg(long, value_name = "SIZE", value_parser = parse_size, default_value = "4GB", requires = "tiles")]
@@ -131,6 +134,44 @@ struct Run<const D: usize> {
     state: State,
     plan: Arc<Plan<D>>,
     options: Options,
+    devices: Devices,
+}
+
+/// The GPUs that triangulate tiles; none if the CPU does.
+#[derive(Default)]
+pub(crate) struct Devices {
+    triangulators: Vec<Triangulator>,
+    /// How many tiles were triangulated by the CPU all the same, and why the last one was.
+    fallbacks: Mutex<(u32, Option<String>)>,
+}
+
+impl Devices {
+    /// Returns what triangulates a tile, if that is not the CPU.
+    fn of(&self, tile: u32) -> Option<&Triangulator> {
+        let count = self.triangulators.len().max(1);
+        self.triangulators.get(tile as usize % count)
+    }
+
+    /// Notes how a tile was triangulated.
+    fn note(&self, stats: &Stats) {
+        if let Some(why) = &stats.fallback {
+            let mut fallbacks = self.fallbacks.lock().unwrap_or_else(PoisonError::into_inner);
+            *fallbacks = (fallbacks.0 + 1, Some(why.to_string()));
+        }
+    }
+}
+
+/// Returns the GPUs that triangulate tiles.
+pub(crate) fn devices(backend: BackendName) -> Devices {
+    let hardware = || Triangulator::of_each_gpu();
+    let triangulators = match backend {
+        BackendName::Cpu => Vec::new(),
+        BackendName::Auto => hardware(),
+        // If there is only software, that which the system recommends, or the error that there is none.
+        BackendName::Gpu => Some(hardware()).filter(|all| !all.is_empty()).unwrap_or_else(|| vec![Triangulator::new()]),
+    };
+    let triangulators = triangulators.into_iter().map(|one| one.backend(backend.into())).collect();
+    Devices { triangulators, ..Devices::default() }
 }
 
 impl<const D: usize> Run<D> {
@@ -182,6 +223,7 @@ pub(crate) struct Request<'a> {
     pub(crate) tiling: &'a Tiling,
     pub(crate) force: bool,
     pub(crate) options: Options,
+    pub(crate) devices: Devices,
     pub(crate) verify: bool,
     pub(crate) stats: Option<StatsForm>,
 }
@@ -189,7 +231,7 @@ pub(crate) struct Request<'a> {
 /// Triangulates points into the folder of `request`.
 pub(crate) fn run<M: Triangulation<D, N>, const D: usize, const N: usize>(
     path: &Path,
-    request: &Request<'_>,
+    request: Request<'_>,
 ) -> Result<(), Failure>
 where
     Dimension<D>: Provable<D, N>,
@@ -210,21 +252,22 @@ where
     // Threads that are left work on other tiles.
     let all = request.options.threads.or_else(|| thread::available_parallelism().ok());
     let threads = all.and_then(|all| NonZeroUsize::new(all.get().min(THREADS)));
-    let options = Options { threads, ..request.options.clone() };
+    let options = Options { threads, ..request.options };
+    let devices = request.devices;
     let mut run = match state {
         Some(state) => {
             let plan = Plan::from_bytes(&folder.read(PLAN)?).map_err(|error| folder.damaged(PLAN, error))?;
-            Run { folder, state, plan: Arc::new(plan), options }
+            Run { folder, state, plan: Arc::new(plan), options, devices }
         }
         None => {
             folder.clear()?;
             let (survey, points) = clock.time("survey", |show| split::survey::<D>(&inputs, &order, show))?;
-            let workers = workers(all);
+            let workers = workers(all).max(devices.triangulators.len() as u32);
             let tiles = split::tiles(points, order.memory / u64::from(workers));
             let plan = Arc::new(Plan::new(survey, tiles));
             folder.write(PLAN, &plan.to_bytes())?;
             let state = State { order, tiles, workers: workers.min(tiles), points, steps: 0, is_quiet: false, sent: 0 };
-            let run = Run { folder, state, plan, options };
+            let run = Run { folder, state, plan, options, devices };
             clock.time("split", |show| split::split::<D, N>(&run, &inputs, show))?;
             run.save()?;
             run
@@ -234,6 +277,7 @@ where
     clock.time("pieces", |show| pieces::write::<M, D, N>(&run, show))?;
     let index = clock.time("links", |show| pieces::link(&run, show))?;
     let State { tiles, steps, sent, .. } = run.state;
+    let (fallbacks, fallback) = run.devices.fallbacks.into_inner().unwrap_or_else(PoisonError::into_inner);
     run.folder.finish(&index)?;
     let proof = request.verify.then(|| prove::<M, D, N>(path)).transpose()?;
     let report = Report {
@@ -244,6 +288,9 @@ where
         tiles,
         steps,
         sent,
+        gpus: run.devices.triangulators.len(),
+        fallbacks,
+        fallback,
         resumed,
         verified: proof.as_ref().map(Proof::passed),
         seconds: clock.0,
@@ -295,6 +342,13 @@ struct Report {
     steps: u32,
     /// Points that tiles have sent each other.
     sent: u64,
+    /// How many GPUs triangulated tiles.
+    gpus: usize,
+    /// How many tiles the CPU triangulated instead.
+    fallbacks: u32,
+    /// Why it did so for the last one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fallback: Option<String>,
     /// Whether the run went on with what an earlier one had done.
     resumed: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -333,6 +387,12 @@ impl fmt::Display for Report {
         write!(f, "\n{name:<15} {count}\ntiles           {}", self.tiles)?;
         if self.sent > 0 {
             write!(f, ", which sent each other {} points in {} steps", self.sent, self.steps)?;
+        }
+        if self.gpus > 0 {
+            write!(f, "\nGPUs            {}", self.gpus)?;
+        }
+        if let Some(why) = &self.fallback {
+            write!(f, "; the CPU triangulated {} tiles: {why}", self.fallbacks)?;
         }
         let total: f64 = self.seconds.values().sum();
         write!(f, "\nseconds         {total:.3}")?;

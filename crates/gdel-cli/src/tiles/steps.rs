@@ -107,7 +107,15 @@ where
         Error::BadMessage { .. } => folder.damaged(&name, error),
         source => Failure::Points { path: folder.work(""), source },
     };
-    let sent = whole.step(received).map_err(failure)?;
+    // Most of the work is in the second step.
+    let sent = match run.devices.of(tile).filter(|_| step == 2) {
+        Some(triangulator) => {
+            let sent = whole.step_on(triangulator, received).map_err(failure)?;
+            run.devices.note(whole.stats());
+            sent
+        }
+        None => whole.step(received).map_err(failure)?,
+    };
     // What no other tile can change is not needed for further steps.
     if step == 2 {
         let core = whole.take_core().map_err(failure)?;

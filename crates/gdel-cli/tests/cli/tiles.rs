@@ -204,6 +204,25 @@ fn other_folders_are_left_alone() {
     fails(folder, &run, "another run is writing it");
 }
 
+/// `auto` takes no software for a GPU, since the CPU backend is faster.
+#[test]
+fn gpus_triangulate_tiles() {
+    let folder = folder();
+    let folder = folder.path();
+    for (dim, name) in [("3", "tetrahedra"), ("2", "triangles")] {
+        generate(folder, "uniform", "6000", dim);
+        let run = |backend| {
+            let tiles = format!("{backend}-{dim}");
+            let run = ["triangulate", "points.npy", SMALL, "--dim", dim, "--backend", backend, "--tiles", &tiles];
+            stats(&succeeds(folder, &[&run[..], &["--verify", "--stats", "json"]].concat()))
+        };
+        let [cpu, gpu] = ["cpu", "gpu"].map(run);
+        assert_eq!([&gpu["gpus"], &gpu["fallbacks"], &cpu["gpus"]], [1, 0, 0]);
+        assert_eq!(gpu["verified"], true);
+        assert_eq!([&gpu[name], &gpu["sent"]], [&cpu[name], &cpu["sent"]]);
+    }
+}
+
 #[test]
 fn bad_input_is_named() {
     let folder = folder();
