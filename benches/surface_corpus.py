@@ -7,7 +7,7 @@ Twelve shapes of known volume, genus and number of surfaces, each as thirteen sc
 with noise of 0.25 and of 0.6 of the distance between points, with 1 % of outliers, with three holes, with coordinates
 that are multiples of 1/500, and what one to six viewpoints see. Nothing outside sees a cavity, so that it is no part of what
 is right for viewpoints. A row says whether the surface is closed (every edge has one triangle in each direction),
-whether it intersects itself (by Open3D, if it is installed), whether genus and number of surfaces are right, the error of
+whether it intersects itself (if Open3D is installed), whether genus and number of surfaces are right, the error of
 the volume, and the mean distance of its area from the shape in units of the distance between points. `--peers` adds
 Open3D's screened Poisson with estimated and with true normals at the best of three depths (6 to 8 for 15,000 points), its ball pivoting and its
 alpha shape, and PyVista's `delaunay_3d`, these at the best of three radii: the best has the right genus, else the
@@ -20,6 +20,7 @@ import math
 import pathlib
 import subprocess
 import tempfile
+from fractions import Fraction
 
 import numpy as np
 
@@ -209,13 +210,33 @@ def check(vertices, triangles, shape, distance_between, random):
     return row
 
 
+def orientation(*points):
+    """The sign of the determinant of four points, exactly."""
+    (a, b, c), d = [[Fraction(float(x)) for x in p] for p in points[:3]], points[3]
+    a, b, c = ([x - Fraction(float(y)) for x, y in zip(p, d)] for p in (a, b, c))
+    value = sum(a[i] * (b[j] * c[k] - b[k] * c[j]) for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)))
+    return (value > 0) - (value < 0)
+
+
 def intersects(vertices, triangles):
-    """Whether a surface intersects itself; `None` without Open3D."""
+    """Whether an edge of a surface passes through the inside of one of its triangles; `None` without Open3D.
+
+    Open3D finds pairs of triangles that may intersect, by floating point; where they touch, it often says so, too.
+    """
     if not open3d:
         return None
     mesh = open3d.geometry.TriangleMesh(open3d.utility.Vector3dVector(vertices),
                                         open3d.utility.Vector3iVector(triangles.astype(np.int32)))
-    return mesh.is_self_intersecting()
+
+    def passes(p, q, triangle):
+        a, b, c = triangle
+        if orientation(a, b, c, p) * orientation(a, b, c, q) >= 0:
+            return False
+        return abs(orientation(p, q, a, b) + orientation(p, q, b, c) + orientation(p, q, c, a)) == 3
+
+    pairs = vertices[triangles[np.asarray(mesh.get_self_intersecting_triangles(), int).reshape(-1, 2)]]
+    edges = ((0, 1), (1, 2), (2, 0))
+    return any(passes(s[i], s[j], t) or passes(t[i], t[j], s) for s, t in pairs for i, j in edges)
 
 
 def best(meshes, shape, distance_between, random):
