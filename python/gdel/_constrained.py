@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from gdel import _gdel
 from gdel._delaunay import Delaunay, State, VerifyReport
-from gdel._points import Backend, Floats, Indices, Points, Progress, as_floats, as_points, as_progress
+from gdel._points import Backend, Floats, Indices, Points, Progress, as_aligned, as_floats, as_points, as_progress
 
 Fill: TypeAlias = Literal["all", "evenodd", "nonzero", "enclosed"]
 Crossings: TypeAlias = Literal["error", "split"]
@@ -136,7 +136,8 @@ class ConstrainedDelaunay(Delaunay):
 
     def __setstate__(self, pickled: dict[str, Any]) -> None:
         """Take what was pickled."""
-        self._found = pickled["found"]
+        found = pickled["found"].items()
+        self._found = {name: as_aligned(part) if isinstance(part, np.ndarray) else part for name, part in found}
         super().__setstate__(pickled)
 
     @property

@@ -18,6 +18,7 @@ from gdel._points import (
     Indices,
     Points,
     Progress,
+    as_aligned,
     as_floats,
     as_points,
     as_progress,
@@ -226,8 +227,8 @@ class Delaunay:
         """Take what was pickled."""
         self._backend, self._threads, self._closed = pickled["options"]
         self._lock = threading.Lock()
-        mesh = _gdel.restore(tuple(pickled["arrays"]), pickled["dimension"], self._threads)
-        self._state = State(mesh, pickled["points"])
+        mesh = _gdel.restore(tuple(map(as_aligned, pickled["arrays"])), pickled["dimension"], self._threads)
+        self._state = State(mesh, as_aligned(pickled["points"]))
 
     # What SciPy has.
 

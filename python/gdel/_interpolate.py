@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from gdel._constrained import ConstrainedDelaunay
 from gdel._delaunay import Delaunay, State
-from gdel._points import Backend, Floats, as_floats, as_points, as_values
+from gdel._points import Backend, Floats, as_aligned, as_floats, as_points, as_values
 
 Method: TypeAlias = Literal["linear", "laplace", "sibson", "sibson-c1", "clough-tocher"]
 Outside: TypeAlias = Literal["fill", "nearest", "linear"]
@@ -107,8 +107,9 @@ class Interpolator:
     def __setstate__(self, pickled: dict[str, Any]) -> None:
         """Take what was pickled."""
         self.__dict__.update(pickled)
+        self.values = as_aligned(self.values)
         if self._gradients is not None:
-            self._gradients = (self.tri._state, pickled["_gradients"])
+            self._gradients = (self.tri._state, as_aligned(pickled["_gradients"]))
 
     def __call__(self, *args: Any) -> npt.NDArray[Any]:
         """Return the values at points: an array with the coordinates in the last axis, or one array per coordinate."""

@@ -36,6 +36,11 @@ def as_floats(values: npt.ArrayLike, name: str) -> Points:
     return np.require(array, dtype, ["C", "A"])
 
 
+def as_aligned(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    """Return an array that Rust can borrow: a copy if it lies where a message from another process has left it."""
+    return np.require(array, requirements=["C", "A"])
+
+
 def as_weights(weights: npt.ArrayLike | None, radii: npt.ArrayLike | None) -> Floats | None:
     """Return weights as an array of one axis, or those of radii, which are their squares."""
     if weights is not None and radii is not None:

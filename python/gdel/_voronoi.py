@@ -90,7 +90,7 @@ class Voronoi:
 
     def __init__(
         self,
-        points: npt.ArrayLike,
+        points: npt.ArrayLike | Delaunay,
         furthest_site: bool = False,
         incremental: bool = False,
         qhull_options: str | None = None,

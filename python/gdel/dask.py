@@ -30,15 +30,18 @@ import numpy as np
 import numpy.typing as npt
 from dask.delayed import Delayed
 
-from gdel import _gdel
-from gdel._points import Floats, Points, as_points
+from gdel import _gdel, _stars
+from gdel._points import Floats, Points, as_aligned, as_points, as_queries, as_values
+from gdel._stars import Piece, Stars, simplices_of
+from gdel._voronoi import Voronoi
 
-__all__ = ["Tiles", "delaunay"]
-
-Piece = dict[str, npt.NDArray[Any]]
+__all__ = ["Stars", "Tiles", "delaunay"]
 
 #: So many points are in a tile if the caller does not say how many tiles there are to be.
 _PER_TILE = 4_000_000
+
+#: So many queries of a NumPy array are answered by one task.
+_PER_BLOCK = 1_000_000
 
 
 class Tiles:
@@ -53,10 +56,19 @@ class Tiles:
     """The number of coordinates of a point."""
     dimension: int
     """The affine dimension of the points; if it is less than `ndim`, there are no simplices."""
+    single: bool
+    """Whether all points were given in single precision."""
+    threads: int
+    """The number of threads of a task."""
 
-    def __init__(self, pieces: list[Delayed], npoints: int, ndim: int, dimension: int) -> None:
+    def __init__(
+        self, pieces: list[Delayed], npoints: int, ndim: int, dimension: int, *, single: bool = False, threads: int = 1
+    ) -> None:
         """Create the mesh of these pieces; `delaunay` does."""
         self.pieces, self.npoints, self.ndim, self.dimension = pieces, npoints, ndim, dimension
+        self.single, self.threads = single, threads
+        self._stars: list[Delayed] = []
+        self._boxes: list[Delayed] = []
 
     def __repr__(self) -> str:
         """Return a short description."""
@@ -98,6 +110,183 @@ class Tiles:
             dask.delayed(_sum_shares)(piece, [dask.delayed(_item)(share, tile) for share in shares], tile)
             for tile, piece in enumerate(self.pieces)
         ]
+
+    def stars(self) -> list[Delayed]:
+        """Return for each tile the `Stars` of its points, delayed: all simplices around each of them.
+
+        What depends on nothing else is computed from them tile by tile, as the methods below do. They take about as
+        much memory as the pieces; `dask.persist` keeps them if several answers are computed after each other.
+
+        >>> import dask.array as da
+        >>> mesh = delaunay(da.random.default_rng(1).random((500, 2), chunks=(250, 2)), tiles=3)
+        >>> def degrees(stars):
+        ...     indptr, _ = stars.mesh.vertex_neighbor_vertices
+        ...     return np.diff(indptr)[stars.own]
+        >>> degree = np.concatenate(dask.compute(*[dask.delayed(degrees)(stars) for stars in mesh.stars()]))
+        >>> len(degree), bool(degree.mean() < 6)
+        (500, True)
+        """
+        if self.dimension < self.ndim:
+            raise ValueError(
+                f"there are no simplices: the points are flat, of dimension {self.dimension} and not {self.ndim}"
+            )
+        if not self._stars:
+            task, tiles = _tasks(uuid.uuid4().hex[:8]), range(len(self))
+            known = [task(_stars.known, "known", tile)(piece, len(self)) for tile, piece in enumerate(self.pieces)]
+            ends = [task(_stars.outermost_of, "ends", tile)(piece, tile) for tile, piece in enumerate(self.pieces)]
+            extent = task(_stars.outermost, "extent")(ends)
+            for tile, piece in enumerate(self.pieces):
+                shares = [dask.delayed(_item)(share, tile) for share in known]
+                arguments = (piece, tile, shares, extent, self.single, self.threads)
+                self._stars.append(task(_stars.stars_of, "stars", tile)(*arguments))
+            self._boxes = [task(_stars.boxes_of, "box", tile)(self._stars[tile]) for tile in tiles]
+        return list(self._stars)
+
+    def voronoi_volumes(self, clip: npt.ArrayLike | None = None) -> list[Delayed]:
+        """Return for each tile its points, by their indices, and the volumes of their Voronoi cells, delayed.
+
+        They are infinite for unbounded cells, and 0 for duplicates. `clip` is a box, as its lowest and highest corner.
+
+        >>> import dask.array as da
+        >>> mesh = delaunay(da.random.default_rng(1).random((500, 2), chunks=(250, 2)), tiles=3)
+        >>> volumes = [volumes for _, volumes in dask.compute(*mesh.voronoi_volumes(clip=[(0, 0), (1, 1)]))]
+        >>> round(float(np.concatenate(volumes).sum()), 12)
+        1.0
+        """
+        if isinstance(clip, str):
+            raise ValueError(f"clip must be a box or None, not {clip!r}: no tile knows the hull of all points")
+        box = None if clip is None else np.asarray(clip, np.float64)
+        stars = self.stars()
+        # A box that is none is an error now, and not of a task.
+        Voronoi(np.eye(self.ndim + 1, self.ndim), clip=box).volumes  # noqa: B018
+        task = _tasks(uuid.uuid4().hex[:8])
+        return [task(_stars.cell_volumes, "cells", tile)(each, box) for tile, each in enumerate(stars)]
+
+    def alpha_shape(self, alpha: float) -> list[Delayed]:
+        """Return for each tile facets of the surface of the alpha shape of a radius, by their indices, delayed.
+
+        All tiles together have those that `gdel.alpha_shape` finds for the mesh of all points, oriented outwards, each
+        in the tile of its lowest vertex.
+
+        >>> import dask.array as da
+        >>> mesh = delaunay(da.random.default_rng(1).random((500, 2), chunks=(250, 2)), tiles=3)
+        >>> np.concatenate(dask.compute(*mesh.alpha_shape(0.1))).shape[1:]
+        (2,)
+        """
+        if isinstance(alpha, str) or not alpha >= 0:
+            raise ValueError(f"alpha must be a number that is not negative, not {alpha!r}")
+        stars, task = self.stars(), _tasks(uuid.uuid4().hex[:8])
+        found = [task(_stars.solid_of, "solid", tile)(each, float(alpha)) for tile, each in enumerate(stars)]
+        largest = task(max, "alpha")([dask.delayed(_item)(each, "alpha") for each in found])
+        return [
+            task(_stars.facets_of, "facets", tile)(*each, largest)
+            for tile, each in enumerate(zip(stars, found, strict=True))
+        ]
+
+    def nearest(self, xi: Any) -> Any:
+        """Return the index of the vertex nearest to each point of `xi`, by exact comparisons, the lowest of several.
+
+        The last axis of `xi` has the coordinates. The answer for a Dask array is one with chunks like its; that for
+        anything else is computed. It is −1 for points that are not finite. A query is asked of the tile whose points
+        are in the nearest box, and then of those whose boxes are as near as what that tile has found.
+
+        >>> import dask.array as da
+        >>> points = da.random.default_rng(1).random((500, 2), chunks=(250, 2))
+        >>> mesh = delaunay(points, tiles=3)
+        >>> mesh.nearest(points[:3]).compute().tolist()
+        [0, 1, 2]
+        """
+        stars = self.stars()
+
+        def ask(queries: Delayed, task: Callable[..., Any], *block: int) -> Delayed:
+            route = task(_stars.to_nearest_boxes, "nearest-route", *block)(queries, self._boxes)
+            found: list[Delayed] = []
+            for name in ("nearest", "nearer"):
+                answers = [
+                    task(_stars.nearest_in, f"{name}-in", *block, tile)(each, dask.delayed(_item)(route, tile))
+                    for tile, each in enumerate(stars)
+                ]
+                found.append(task(_stars.nearest_of, name, *block)(queries, [*found, *answers]))
+                if name == "nearest":
+                    route = task(_stars.to_near_boxes, "nearer-route", *block)(queries, self._boxes, found[0])
+            return dask.delayed(_item)(found[1], 1)
+
+        return self._answer(xi, (), np.dtype(np.int64), ask)
+
+    def interpolate(
+        self,
+        values: da.Array | Sequence[Any] | npt.NDArray[Any],
+        xi: Any,
+        *,
+        fill_value: complex = np.nan,
+        read: Callable[[Any], npt.ArrayLike] = np.load,
+    ) -> Any:
+        """Return linearly interpolated values at the points of `xi`, whose last axis has the coordinates.
+
+        `values` has one value, or one array of values, per point: it is an array, or Dask array, or blocks that follow
+        each other, as for `delaunay`. The answer for a Dask array `xi` is one with chunks like its; that for anything
+        else is computed. Outside the hull of all points it is `fill_value`, where `LinearNDInterpolator` has it. Of
+        equal points, the value of the first one counts. A query is in the same simplex as in the mesh of all points;
+        only the order in which its corners are summed may differ.
+
+        >>> import dask.array as da
+        >>> points = da.random.default_rng(1).random((500, 2), chunks=(250, 2))
+        >>> mesh = delaunay(points, tiles=3)
+        >>> mesh.interpolate(points[:, 0] + 2 * points[:, 1], [(0.5, 0.25), (9, 9)]).round(12).tolist()
+        [1.0, nan]
+        """
+        stars = self.stars()
+        blocks = _blocks(values, read, _as_block)
+        shapes, dtypes = zip(*dask.compute(*[dask.delayed(_shape_and_type)(block) for block in blocks]), strict=True)
+        if len({shape[1:] for shape in shapes}) != 1:
+            raise ValueError(f"the values of all blocks must have one shape, not {sorted({s[1:] for s in shapes})}")
+        lengths = [shape[0] for shape in shapes]
+        if sum(lengths) != self.npoints:
+            raise ValueError(f"there are {sum(lengths)} values for {self.npoints} points")
+        dtype = np.result_type(*dtypes)
+        if isinstance(fill_value, complex) and dtype.kind != "c":
+            raise ValueError("fill_value is complex, but the values are not")
+        firsts = [int(first) for first in np.cumsum([0, *lengths[:-1]])]
+        task = _tasks(uuid.uuid4().hex[:8])
+        parts: list[list[Delayed]] = []
+        for tile, each in enumerate(stars):
+            indices = task(_stars.indices_of, "indices", tile)(each)
+            picks = [task(_stars.pick, "pick", tile, i)(block, firsts[i], indices) for i, block in enumerate(blocks)]
+            parts.append(picks)
+
+        def ask(queries: Delayed, task: Callable[..., Any], *block: int) -> Delayed:
+            route = task(_stars.to_containing_boxes, "interpolate-route", *block)(queries, self._boxes, self.single)
+            answers = [
+                task(_stars.interpolate_in, "interpolate-in", *block, tile)(
+                    each, parts[tile], dask.delayed(_item)(route, tile)
+                )
+                for tile, each in enumerate(stars)
+            ]
+            merge = task(_stars.interpolated_of, "interpolate", *block)
+            return merge(queries, answers, self._boxes, self.single, fill_value)
+
+        return self._answer(xi, shapes[0][1:], dtype, ask)
+
+    def _answer(
+        self, xi: Any, columns: tuple[int, ...], dtype: np.dtype[Any], ask: Callable[..., Delayed]
+    ) -> npt.NDArray[Any] | da.Array:
+        """Return what `ask` makes of rows of queries, block by block, each answer with these further axes."""
+        if not isinstance(xi, da.Array):
+            rows, shape = as_queries(xi, self.ndim)
+            blocks = da.from_array(rows, chunks=(_PER_BLOCK, self.ndim), name=False)
+            computed: npt.NDArray[Any] = dask.compute(self._answer(blocks, columns, dtype, ask))[0]
+            return computed.reshape(shape + columns)
+        if xi.ndim == 0 or xi.shape[-1] != self.ndim:
+            raise ValueError(f"the last axis of xi must have {self.ndim} coordinates; the shape is {xi.shape}")
+        task = _tasks(uuid.uuid4().hex[:8])
+        delayed = xi.rechunk({xi.ndim - 1: -1}).to_delayed()[..., 0]
+        answers = np.empty(delayed.shape, object)
+        for index in np.ndindex(delayed.shape):
+            queries = task(_rows, "queries", *index)(delayed[index], self.ndim)
+            answer = task(_reshaped, "answers", *index)(ask(queries, task, *index), delayed[index], columns)
+            shape = tuple(chunks[i] for chunks, i in zip(xi.chunks, index, strict=False)) + columns
+            answers[index] = da.from_delayed(answer, shape, dtype)
+        return _joined(answers)
 
     def to_folder(self, folder: str | os.PathLike[str]) -> None:
         """Write a folder that all workers see, as `gdel triangulate --tiles` does and `gdel verify` proves.
@@ -142,9 +331,9 @@ def delaunay(
     This call runs the exchange of points on the default scheduler, or that of the `distributed.Client` if there is one.
     Pieces are computed afterwards, when they are asked for.
     """
-    mesh = f"gdel-{uuid.uuid4().hex[:8]}"
-    blocks = _blocks(points, read, mesh)
-    lengths, columns = zip(*dask.compute(*[dask.delayed(_shape)(block) for block in blocks]), strict=True)
+    blocks = _blocks(points, read, as_points)
+    shapes, dtypes = zip(*dask.compute(*[dask.delayed(_shape_and_type)(block) for block in blocks]), strict=True)
+    lengths, columns = zip(*shapes, strict=True)
     if len(set(columns)) != 1 or columns[0] not in (2, 3):
         raise ValueError(f"points must all have 2 or all have 3 coordinates, not {sorted(set(columns))}")
     ndim, npoints = columns[0], sum(lengths)
@@ -153,11 +342,7 @@ def delaunay(
     if tiles < 1:
         raise ValueError(f"there must be at least one tile, not {tiles}")
     firsts = [int(first) for first in np.cumsum([0, *lengths[:-1]])]
-
-    def task(function: Callable[..., Any], name: str, *key: int) -> Callable[..., Delayed]:
-        label = "-".join([f"gdel-{name}", mesh[5:], *map(str, key)])
-        return lambda *arguments: dask.delayed(function)(*arguments, dask_key_name=label)
-
+    task = _tasks(uuid.uuid4().hex[:8])
     every = min(max(npoints // 256, 1), 1000)
     surveys = [task(_survey, "survey", i)(block, firsts[i], every) for i, block in enumerate(blocks)]
     planned, dimension = task(_gdel.tiles_plan, "plan")(surveys, ndim, tiles).compute()
@@ -192,29 +377,66 @@ def delaunay(
     whole = [task(_piece, "piece", tile)(plan, states[tile], cores[tile], threads) for tile in range(tiles)]
     links = task(_gdel.tiles_links, "links")([dask.delayed(_item)(piece, "rim") for piece in whole])
     pieces = [task(_linked, "linked", tile)(piece, links, tile) for tile, piece in enumerate(whole)]
-    return Tiles(pieces, npoints, ndim, dimension)
+    # As all points together would be in single precision.
+    single = all(dtype == np.float32 for dtype in dtypes)
+    return Tiles(pieces, npoints, ndim, dimension, single=single, threads=threads)
 
 
-def _blocks(points: da.Array | Sequence[Any], read: Callable[[Any], npt.ArrayLike], mesh: str) -> list[Delayed]:
-    """Return the blocks of points that follow each other."""
-    if isinstance(points, da.Array):
-        if points.ndim != 2:
-            raise ValueError(f"points must have two axes, not the shape {points.shape}")
-        return [dask.delayed(as_points)(block) for block in points.rechunk({1: -1}).to_delayed().ravel()]
-    if isinstance(points, (str, os.PathLike, np.ndarray)):
-        points = [points]
+def _tasks(label: str) -> Callable[..., Callable[..., Delayed]]:
+    """Return what delays a function under a name and with a key, which together with the label are unique."""
+
+    def task(function: Callable[..., Any], name: str, *key: int) -> Callable[..., Delayed]:
+        full = "-".join([f"gdel-{name}", label, *map(str, key)])
+        return lambda *arguments: dask.delayed(function)(*arguments, dask_key_name=full)
+
+    return task
+
+
+def _blocks(
+    rows: da.Array | Sequence[Any] | npt.NDArray[Any], read: Callable[[Any], npt.ArrayLike], convert: Callable[..., Any]
+) -> list[Delayed]:
+    """Return the blocks of points, or of values, that follow each other, after `convert`."""
+    if isinstance(rows, da.Array):
+        if convert is as_points and rows.ndim != 2:
+            raise ValueError(f"points must have two axes, not the shape {rows.shape}")
+        rows = rows.rechunk(dict.fromkeys(range(1, rows.ndim), -1)).to_delayed().ravel().tolist()
+    if isinstance(rows, (str, os.PathLike, np.ndarray)):
+        rows = [rows]
     blocks = []
-    for item in points:
+    for item in rows:
         if isinstance(item, (str, os.PathLike)):
             item = dask.delayed(read)(os.fspath(item))
-        blocks.append(dask.delayed(as_points)(item))
+        blocks.append(dask.delayed(convert)(item))
     if not blocks:
-        raise ValueError("there are no blocks of points")
+        raise ValueError(f"there are no blocks of {'points' if convert is as_points else 'values'}")
     return blocks
 
 
-def _shape(points: Points) -> tuple[int, int]:
-    return points.shape[0], points.shape[1]
+def _as_block(values: npt.ArrayLike) -> npt.NDArray[Any]:
+    """Return a block of values as an array."""
+    if np.ndim(values) == 0:
+        raise ValueError("values must be an array, or blocks that are arrays, not numbers")
+    return as_values(values, len(np.asarray(values)))
+
+
+def _shape_and_type(rows: npt.NDArray[Any]) -> tuple[tuple[int, ...], np.dtype[Any]]:
+    return rows.shape, rows.dtype
+
+
+def _rows(queries: npt.NDArray[Any], ndim: int) -> Points:
+    return as_queries(queries, ndim)[0]
+
+
+def _reshaped(answers: npt.NDArray[Any], queries: npt.NDArray[Any], columns: tuple[int, ...]) -> npt.NDArray[Any]:
+    return answers.reshape(queries.shape[:-1] + columns)
+
+
+def _joined(blocks: npt.NDArray[Any], axis: int = 0) -> da.Array:
+    """Return the array of these blocks, which stand as they do in it."""
+    if axis == blocks.ndim:
+        return blocks.item()
+    parts = [_joined(part, axis + 1) for part in np.split(blocks, blocks.shape[axis], axis)]
+    return da.concatenate(parts, axis, allow_unknown_chunksizes=True)
 
 
 def _item(values: Any, key: Any) -> Any:
@@ -222,11 +444,12 @@ def _item(values: Any, key: Any) -> Any:
 
 
 def _survey(points: Points, first: int, every: int) -> bytes:
-    return _gdel.tiles_survey(points, first, every)
+    # What comes from another worker may not be aligned.
+    return _gdel.tiles_survey(as_aligned(points), first, every)
 
 
 def _split(plan: bytes, points: Points, first: int) -> list[tuple[Floats, npt.NDArray[np.uint32]]]:
-    return _gdel.tiles_split(plan, points, first)
+    return _gdel.tiles_split(plan, as_aligned(points), first)
 
 
 def _begin(plan: bytes, tile: int, parts: list[tuple[Floats, npt.NDArray[np.uint32]]]) -> bytes:
@@ -260,17 +483,13 @@ def _linked(piece: dict[str, Any], links: list[npt.NDArray[np.uint32]], tile: in
     return {**piece["arrays"], "links": links[tile]}
 
 
-def _simplices(piece: Piece) -> npt.NDArray[np.uint32]:
-    return piece["tetrahedra"] if "tetrahedra" in piece else piece["triangles"]
-
-
 def _count(piece: Piece) -> int:
-    return len(_simplices(piece))
+    return len(simplices_of(piece))
 
 
 def _shares(piece: Piece, tiles: int) -> list[tuple[npt.NDArray[np.uint32], Floats]]:
     """Return for each tile its points that are vertices here, and the volumes of the simplices around them here."""
-    points, simplices = piece["points"], _simplices(piece)
+    points, simplices = piece["points"], simplices_of(piece)
     edges = points[simplices[:, 1:]] - points[simplices[:, :1]]
     volumes = np.abs(np.linalg.det(edges)) / (2 if points.shape[1] == 2 else 6)
     sums = np.zeros(len(points))

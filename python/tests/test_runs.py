@@ -145,6 +145,29 @@ def test_pickling(ndim, protocol):
     assert len(voronoi.ridge_points)
 
 
+def received(item):
+    """Return what another process gets: arrays that lie at odd places of a message."""
+    buffers = []
+    pickled = pickle.dumps(item, 5, buffer_callback=buffers.append)
+    return pickle.loads(pickled, buffers=[memoryview(b"-" + buffer.raw().tobytes())[1:] for buffer in buffers])
+
+
+@pytest.mark.parametrize("ndim", [2, 3])
+def test_what_other_processes_receive_is_not_aligned(ndim):
+    assert not received(np.zeros(9)).flags.aligned
+    points = np.ascontiguousarray(POINTS[:300, :ndim])
+    tri = gdel.Delaunay(points)
+    other = received(tri)
+    np.testing.assert_array_equal(other.nearest(points), np.arange(300))
+    assert other.verify()
+    for kind in (gdel.LinearNDInterpolator, gdel.NaturalNeighborInterpolator):
+        smooth = kind(tri, points[:, 0], **({} if kind is gdel.LinearNDInterpolator else {"method": "sibson-c1"}))
+        expected = smooth(points[:50])
+        np.testing.assert_array_equal(received(smooth)(points[:50]), expected)
+    if ndim == 2:
+        assert received(gdel.ConstrainedDelaunay(points[:20], edges=[(0, 1)])).verify()
+
+
 def count_simplices(points):
     return gdel.Delaunay(points, backend="cpu").nsimplex
 
