@@ -10,7 +10,7 @@ use super::{
 };
 use crate::{
     backend::Backend,
-    cpu::{Incremental, insert_points},
+    cpu::{Incremental, MeshOf, insert_points},
     dimension::Dimension,
     error::Error,
     geometry::{Euclidean, Geometry},
@@ -231,7 +231,7 @@ where
         self.take_step(Some(triangulator), received)
     }
 
-    /// Takes a step. A triangulator makes the mesh if there is one.
+    /// Takes a step. A triangulator makes the mesh of the second one if there is one.
     fn take_step(
         &mut self,
         on: Option<&Triangulator>,
@@ -240,25 +240,32 @@ where
         if received.iter().any(|&(from, _)| from >= self.plan.tiles() || from == self.number) {
             return Err(Error::BadMessage { reason: "its sender is not another tile" });
         }
-        let options = self.options.clone();
+        let threads = self.options.threads;
         self.steps += 1;
-        parallel::with_threads(options.threads, |threads| match self.steps {
+        match self.steps {
             1 if received.is_empty() => Ok(self.hello()),
             1 => Err(UNEXPECTED),
             2 => {
-                self.begin(threads, on, received)?;
-                Ok(self.outgoing(threads, 0, true))
-            }
-            _ => {
-                let first = self.cloud.points.len();
-                self.add(threads, on, received)?;
-                Ok(if first == self.cloud.points.len() {
-                    Vec::new()
-                } else {
-                    self.outgoing(threads, first as u32, false)
+                self.begin(received)?;
+                let made = match on {
+                    Some(triangulator) if self.has_simplices() => Some(self.triangulate_on(triangulator)?),
+                    _ => None,
+                };
+                parallel::with_threads(threads, |threads| {
+                    match made {
+                        Some(made) => self.take_mesh(threads, made)?,
+                        None => self.awake(threads)?,
+                    }
+                    Ok(self.outgoing(threads, 0, true))
                 })
             }
-        })
+            _ => parallel::with_threads(threads, |threads| {
+                let first = self.cloud.points.len();
+                self.add(threads, received)?;
+                let is_quiet = first == self.cloud.points.len();
+                Ok(if is_quiet { Vec::new() } else { self.outgoing(threads, first as u32, false) })
+            }),
+        }
     }
 
     /// Returns the simplices of the whole triangulation of which the vertex with the lowest index is one of the tile's
@@ -291,7 +298,7 @@ where
     /// Ends the steps: returns the part without simplices, and the triangulation if there is one.
     pub(super) fn end(&mut self) -> Result<(Part<N>, Option<Triangulation<D>>), Error> {
         let threads = self.options.threads;
-        parallel::with_threads(threads, |threads| self.awake(threads, None))?;
+        parallel::with_threads(threads, |threads| self.awake(threads))?;
         let duplicates = self.cloud.indices.iter().copied().zip(self.duplicate_of.iter().copied());
         let duplicates = duplicates.filter(|&(_, first)| first != NONE).map(Into::into).collect();
         Ok((Part { duplicates, ..Part::new(self.plan.dimension()) }, self.triangulation.take()))
@@ -304,9 +311,14 @@ where
     }
 
     /// Triangulates all points that the tile knows if it has begun and has no triangulation.
-    fn awake(&mut self, threads: Threads, on: Option<&Triangulator>) -> Result<(), Error> {
+    fn awake(&mut self, threads: Threads) -> Result<(), Error> {
         let is_begun = self.steps > 1 && self.cloud.own > 0;
-        if is_begun && self.triangulation.is_none() { self.triangulate(threads, on) } else { Ok(()) }
+        if is_begun && self.triangulation.is_none() { self.triangulate(threads) } else { Ok(()) }
+    }
+
+    /// Returns whether the tile has points, of an input that spans the space.
+    fn has_simplices(&self) -> bool {
+        self.cloud.own > 0 && usize::from(self.plan.dimension()) == D
     }
 
     /// Returns how the tile was computed so far.
@@ -338,13 +350,8 @@ where
         others.map(|to| (to, hello.clone())).collect()
     }
 
-    /// Triangulates the tile's own points and the common ones.
-    fn begin(
-        &mut self,
-        threads: Threads,
-        on: Option<&Triangulator>,
-        received: Vec<(u32, Message<D>)>,
-    ) -> Result<(), Error> {
+    /// Learns where other tiles have points, and the common points of these.
+    fn begin(&mut self, received: Vec<(u32, Message<D>)>) -> Result<(), Error> {
         let mut first_of = FxHashMap::default();
         let mut heard = FxHashSet::default();
         for (from, message) in received {
@@ -370,17 +377,12 @@ where
             }
         }
         self.cloud.common = self.cloud.owners.len() as u32;
-        self.triangulate(threads, on)
+        Ok(())
     }
 
     /// Triangulates all points that the tile knows.
-    fn triangulate(&mut self, threads: Threads, on: Option<&Triangulator>) -> Result<(), Error> {
+    fn triangulate(&mut self, threads: Threads) -> Result<(), Error> {
         self.check_count()?;
-        if let Some(triangulator) = on
-            && usize::from(self.plan.dimension()) == D
-        {
-            return self.triangulate_on(threads, triangulator);
-        }
         let points = Points::F64(&self.cloud.points);
         let lattice = Lattice::fit_by(threads, points)?;
         let Distinct { mut order, rounds, duplicate_of } =
@@ -404,14 +406,21 @@ where
     }
 
     /// Triangulates all points that the tile knows by a triangulator. It breaks ties by the order of points, so they are in
-    /// that of their indices.
-    fn triangulate_on(&mut self, threads: Threads, triangulator: &Triangulator) -> Result<(), Error> {
-        let Cloud { points, indices, own, .. } = &self.cloud;
+    /// that of their indices, which is returned with the mesh.
+    fn triangulate_on(&self, triangulator: &Triangulator) -> Result<(Vec<u32>, MeshOf<D>), Error> {
+        self.check_count()?;
+        let Cloud { points, indices, .. } = &self.cloud;
         let mut order: Vec<u32> = (0..points.len() as u32).collect();
         // Most ascend already, which this sort is fast for.
         order.sort_by_key(|&v| indices[v as usize]);
         let sorted: Vec<[f64; D]> = order.iter().map(|&v| points[v as usize]).collect();
         let mesh = Dimension::<D>::delaunay(triangulator, &sorted)?;
+        Ok((order, mesh))
+    }
+
+    /// Takes the mesh of all points that the tile knows, of which vertex *v* is point `order[v]`.
+    fn take_mesh(&mut self, threads: Threads, (order, mesh): (Vec<u32>, MeshOf<D>)) -> Result<(), Error> {
+        let Cloud { points, indices, own, .. } = &self.cloud;
         self.duplicate_of = vec![NONE; *own as usize];
         for (&v, &first) in order.iter().zip(mesh.duplicate_of()).filter(|&(_, &first)| first != NONE) {
             let duplicate_of = self.duplicate_of.get_mut(v as usize).ok_or(EQUAL)?;
@@ -432,12 +441,7 @@ where
     }
 
     /// Inserts what other tiles have sent.
-    fn add(
-        &mut self,
-        threads: Threads,
-        on: Option<&Triangulator>,
-        received: Vec<(u32, Message<D>)>,
-    ) -> Result<(), Error> {
+    fn add(&mut self, threads: Threads, received: Vec<(u32, Message<D>)>) -> Result<(), Error> {
         let before = self.cloud.points.len();
         let mut received_from = Vec::new();
         for (from, message) in received {
@@ -462,7 +466,7 @@ where
             }
         }
         self.check_count()?;
-        let Some(triangulation) = &mut self.triangulation else { return self.awake(threads, on) };
+        let Some(triangulation) = &mut self.triangulation else { return self.awake(threads) };
         let points = Points::F64(&self.cloud.points);
         let lattice = Lattice::fit_by(threads, points)?;
         let new = points.range(before..points.len());
