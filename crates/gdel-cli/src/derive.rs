@@ -1,11 +1,12 @@
 //! The frame of the commands that derive something from a triangulation.
 
 use super::{
+    backend::BackendName,
     dimension::{Counts, Dimension, Triangulation, format_parser, read},
     failure::Failure,
     progress::Progress,
     report::{Flatness, StatsForm, print},
-    triangulate::{BackendName, triangulate},
+    triangulate::triangulate,
 };
 use clap::{
     Args,

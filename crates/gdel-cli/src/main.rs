@@ -3,6 +3,7 @@
 
 mod adapters;
 mod alpha;
+mod backend;
 mod clip;
 mod constrain;
 mod contour;

@@ -1,6 +1,7 @@
 //! `gdel triangulate`: a point cloud in, its Delaunay triangulation out, or the regular one of weighted points.
 
 use super::{
+    backend::BackendName,
     constrain::{self, Constrained, FillRule, Refine, Refined},
     dimension::{Dimension, Rescale, Triangulation, in_dimension},
     failure::{Failure, conclude},
@@ -11,12 +12,12 @@ use super::{
     weights::Weights,
 };
 use clap::{
-    Args, ValueEnum,
+    Args,
     builder::{PossibleValuesParser, TypedValueParser},
     error::ErrorKind,
 };
 use gdel::{
-    Backend, Mesh3, Points, Triangulator,
+    Mesh3, Points, Triangulator,
     internals::{
         Options,
         geometry::{Euclidean, Geometry},
@@ -142,26 +143,6 @@ fn input_parser() -> impl TypedValueParser<Value = InputFormat> {
         let shapes = ShapeFormat::from_extension(&name).map(InputFormat::Shapes);
         shapes.or_else(|| PointFormat::from_extension(&name).map(InputFormat::Points)).ok_or("no format of an input")
     })
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-pub(super) enum BackendName {
-    /// The GPU for large inputs if there is a hardware GPU, else the CPU
-    Auto,
-    /// Incremental insertion
-    Cpu,
-    /// Insertion and flipping on the GPU; an error if there is none
-    Gpu,
-}
-
-impl From<BackendName> for Backend {
-    fn from(name: BackendName) -> Self {
-        match name {
-            BackendName::Auto => Backend::Auto,
-            BackendName::Cpu => Backend::Cpu,
-            BackendName::Gpu => Backend::Gpu,
-        }
-    }
 }
 
 fn parse_output(path: &str) -> Result<Output, String> {

@@ -200,19 +200,17 @@ fn fit<const D: usize>(points: &[[f64; D]], point: [f64; D], near: &[(f64, u32)]
     for &(q, weight) in &weighted {
         let local = frame.map(|axis| vector::dot(axis, q));
         let (terms, count) = terms(local);
-        for a in 0..count {
+        for (a, row) in system.iter_mut().enumerate().take(count) {
             let term = weight * terms[a];
-            for b in a..count {
-                system[a][b] += term * terms[b];
-            }
-            system[a][MAX_TERMS] += term * local[0];
+            row[a..count].iter_mut().zip(&terms[a..]).for_each(|(entry, other)| *entry += term * other);
+            row[MAX_TERMS] += term * local[0];
         }
     }
     let count = terms([0.0; D]).1;
-    for a in 0..count {
-        for b in 0..a {
-            system[a][b] = system[b][a];
-        }
+    // The matrix is symmetric.
+    for a in 1..count {
+        let (above, rest) = system.split_at_mut(a);
+        rest[0].iter_mut().zip(above).for_each(|(entry, row)| *entry = row[a]);
     }
     let coefficients = solve(system, count);
     fit.offset = vector::times(radius * coefficients[0], frame[0]);

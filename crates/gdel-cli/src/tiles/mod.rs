@@ -11,11 +11,11 @@ mod verify;
 pub(crate) use verify::prove;
 
 use crate::{
+    backend::BackendName,
     dimension::Triangulation,
     failure::{Failure, conclude},
     progress::Progress,
     report::{StatsForm, print},
-    triangulate::BackendName,
 };
 use clap::{Args, ValueEnum};
 use folder::Folder;
