@@ -11,7 +11,8 @@ whether it intersects itself (if Open3D is installed), whether genus and number 
 the volume, and the mean distance of its area from the shape in units of the distance between points. `--peers` adds
 Open3D's screened Poisson with estimated and with true normals at the best of three depths (6 to 8 for 15,000 points), its ball pivoting and its
 alpha shape, and PyVista's `delaunay_3d`, these at the best of three radii: the best has the right genus, else the
-least distance. The last lines sum up each kind of scan. Needs NumPy; by default it takes target/release/gdel.
+least distance. If g++ and CGAL are there (Debian: libcgal-dev), also its advancing front and its scale space. The last lines sum up each kind
+of scan. Needs NumPy; by default it takes target/release/gdel.
 """
 
 import argparse
@@ -19,6 +20,7 @@ import json
 import math
 import pathlib
 import subprocess
+import sys
 import tempfile
 from fractions import Fraction
 
@@ -34,6 +36,7 @@ except (ImportError, OSError):
     pyvista = None
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
+CGAL = ROOT / ".cache" / "bench" / "surface"
 
 
 def length(p):
@@ -250,6 +253,26 @@ def best(meshes, shape, distance_between, random):
     return row | {"intersects": intersects(*mesh)}
 
 
+def build_cgal():
+    """Compiles the program of CGAL's surfaces, if that is possible."""
+    CGAL.parent.mkdir(parents=True, exist_ok=True)
+    command = ["g++", "-std=c++17", "-O3", "-DNDEBUG", "-frounding-math", ROOT / "benches" / "peers" / "surface.cpp",
+               "-o", CGAL, "-lgmp", "-lmpfr"]
+    try:
+        subprocess.run(command, check=True, capture_output=True)
+    except (OSError, subprocess.CalledProcessError):
+        CGAL.unlink(missing_ok=True)
+        print("without CGAL: peers/surface.cpp does not compile", file=sys.stderr)
+
+
+def cgal(method, points):
+    """What CGAL makes of a scan."""
+    with tempfile.NamedTemporaryFile(suffix=".f64") as file:
+        points.astype(np.float64).tofile(file.name)
+        run = subprocess.run([CGAL, method, file.name], capture_output=True, check=True)
+    return points, np.frombuffer(run.stdout, np.uint32).reshape(-1, 3)
+
+
 def arrays_of(mesh):
     return np.asarray(mesh.vertices), np.asarray(mesh.triangles)
 
@@ -257,6 +280,9 @@ def arrays_of(mesh):
 def peers(points, shape, distance_between, random):
     """What other programs make of a scan, by name."""
     judged = lambda meshes: best(meshes, shape, distance_between, random)
+    if CGAL.exists():
+        yield "cgal advancing front", judged([(None, cgal("front", points))])
+        yield "cgal scale space", judged([(None, cgal("scale", points))])
     cloud = open3d.geometry.PointCloud(open3d.utility.Vector3dVector(points))
     radii = [distance_between * factor for factor in (2, 4, 8)]
     mesh_of = open3d.geometry.TriangleMesh
@@ -289,6 +315,8 @@ def main():
     arguments = parser.parse_args()
     if arguments.peers and not open3d:
         parser.error("--peers needs Open3D: pip install open3d")
+    if arguments.peers:
+        build_cgal()
     sums = {}
     with tempfile.TemporaryDirectory() as folder:
         scan, output = pathlib.Path(folder, "scan.npy"), pathlib.Path(folder, "surface.ply")
