@@ -115,7 +115,7 @@ class Tiles:
         """Return for each tile the `Stars` of its points, delayed: all simplices around each of them.
 
         What depends on nothing else is computed from them tile by tile, as the methods below do. They take about as
-        much memory as the pieces; `dask.persist` keeps them if several answers are computed after each other.
+        much memory as the pieces; `persist` keeps both.
 
         >>> import dask.array as da
         >>> mesh = delaunay(da.random.default_rng(1).random((500, 2), chunks=(250, 2)), tiles=3)
@@ -141,6 +141,22 @@ class Tiles:
                 self._stars.append(task(_stars.stars_of, "stars", tile)(*arguments))
             self._boxes = [task(_stars.boxes_of, "box", tile)(self._stars[tile]) for tile in tiles]
         return list(self._stars)
+
+    def persist(self) -> Tiles:
+        """Return this mesh with its pieces and stars computed, and kept in memory, on a cluster in that of the workers.
+
+        Without it, every answer that is computed by itself computes them again.
+
+        >>> import dask.array as da
+        >>> mesh = delaunay(da.random.default_rng(1).random((500, 2), chunks=(250, 2)), tiles=3).persist()
+        >>> mesh.nearest([(0.5, 0.5)]).shape
+        (1,)
+        """
+        stars = self.stars() if self.dimension == self.ndim else []
+        pieces, stars, boxes = dask.persist(self.pieces, stars, self._boxes)
+        kept = Tiles(pieces, self.npoints, self.ndim, self.dimension, single=self.single, threads=self.threads)
+        kept._stars, kept._boxes = stars, boxes
+        return kept
 
     def voronoi_volumes(self, clip: npt.ArrayLike | None = None) -> list[Delayed]:
         """Return for each tile its points, by their indices, and the volumes of their Voronoi cells, delayed.
