@@ -230,6 +230,25 @@ fn the_cells_of_a_grid_are_cubes_without_facets_of_no_area() {
     }
 }
 
+/// A grid that is turned has nearly flat tetrahedra at its hull, whose circumcentres are as far as rounding lets them be.
+#[test]
+fn volumes_of_cells_that_reach_far_are_positive() {
+    let [sin, cos] = [0.6f64.sin(), 0.6f64.cos()];
+    let turned = |[x, y, z]: [f64; 3]| {
+        [cos * x - sin * y, 0.6 * (sin * x + cos * y) - 0.8 * z, 0.8 * (sin * x + cos * y) + 0.6 * z]
+    };
+    let grid = (0..216).map(|i| [i % 6, i / 6 % 6, i / 36].map(f64::from));
+    let points: Vec<[f64; 3]> = grid.clone().map(turned).collect();
+    let mesh = mesh3(&points);
+    let cells = Voronoi::new(&mesh, &points, Clip::None).unwrap().map_cells(|_, cell| (cell.volume, cell.is_bounded));
+    assert!(cells.iter().any(|&(volume, is_bounded)| is_bounded && volume > 1e6), "no cell reaches far");
+    for ((volume, is_bounded), at) in cells.into_iter().zip(grid) {
+        let is_inner = at.iter().all(|&x| x > 0.0 && x < 5.0);
+        assert!(volume > 0.0 && (is_bounded || volume.is_infinite()), "{at:?}: {volume}");
+        assert!(!is_inner || (volume - 1.0).abs() < 1e-9, "{at:?}: {volume}");
+    }
+}
+
 #[test]
 fn boxes_without_an_inside_are_errors() {
     let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];

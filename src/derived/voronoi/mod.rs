@@ -12,7 +12,7 @@ mod window;
 
 pub use cell::Cell;
 pub use shapes::VoronoiShapes;
-use shapes::{Row, Star};
+use shapes::{FacetMeasures, Row, Star};
 pub(super) use shapes::{THIRD, place, ring};
 
 use super::{
@@ -564,12 +564,27 @@ where
             if is_facet {
                 neighbors.push(a);
                 areas.push(if is_closed { measures.area } else { f64::INFINITY });
-                *volume += measures.volume;
+                *volume += self.pyramid([v, a], &measures);
                 moment = vector::plus(moment, measures.moment);
             }
             is_facet
         });
         moment
+    }
+
+    /// Returns the volume between the site `v` and its facet towards `a`, which has these measures.
+    ///
+    /// Vertices that are far away, as those of nearly flat simplices, have coordinates from which it cannot be computed: it
+    /// would be the difference of much larger numbers, and negative at times. Without weights, the facet is halfway to `a`.
+    fn pyramid(&self, [v, a]: [u32; 2], measures: &FacetMeasures<D>) -> f64 {
+        if !self.weights.is_empty() {
+            return measures.volume;
+        }
+        let [site, other] = [v, a].map(|v| self.locator.complex.point(v));
+        let height = 0.5 * vector::norm(vector::minus(other, site));
+        let pyramid = height * measures.area / D as f64;
+        let is_right = (measures.volume - pyramid).abs() <= pyramid * (1.0 / (1u64 << 20) as f64);
+        if is_right { measures.volume } else { pyramid }
     }
 
     /// Returns whether the facet that is dual to an edge has an area, in 2D a length. It has none
