@@ -141,8 +141,18 @@ struct Run<const D: usize> {
 #[derive(Default)]
 pub(crate) struct Devices {
     triangulators: Vec<Triangulator>,
-    /// How many tiles were triangulated by the CPU all the same, and why the last one was.
-    fallbacks: Mutex<(u32, Option<String>)>,
+    fallbacks: Mutex<Fallbacks>,
+}
+
+/// The tiles that the CPU triangulated although there are GPUs.
+#[derive(Default, Serialize)]
+struct Fallbacks {
+    /// How many there are.
+    #[serde(rename = "fallbacks")]
+    count: u32,
+    /// Why the CPU triangulated the last one.
+    #[serde(rename = "fallback", skip_serializing_if = "Option::is_none")]
+    why: Option<String>,
 }
 
 impl Devices {
@@ -156,19 +166,21 @@ impl Devices {
     fn note(&self, stats: &Stats) {
         if let Some(why) = &stats.fallback {
             let mut fallbacks = self.fallbacks.lock().unwrap_or_else(PoisonError::into_inner);
-            *fallbacks = (fallbacks.0 + 1, Some(why.to_string()));
+            *fallbacks = Fallbacks { count: fallbacks.count + 1, why: Some(why.to_string()) };
         }
     }
 }
 
 /// Returns the GPUs that triangulate tiles.
 pub(crate) fn devices(backend: BackendName) -> Devices {
-    let hardware = || Triangulator::of_each_gpu();
     let triangulators = match backend {
         BackendName::Cpu => Vec::new(),
-        BackendName::Auto => hardware(),
-        // If there is only software, that which the system recommends, or the error that there is none.
-        BackendName::Gpu => Some(hardware()).filter(|all| !all.is_empty()).unwrap_or_else(|| vec![Triangulator::new()]),
+        BackendName::Auto => Triangulator::of_each_gpu(),
+        BackendName::Gpu => match Triangulator::of_each_gpu() {
+            // The software that the system recommends, or the error that there is none.
+            none if none.is_empty() => vec![Triangulator::new()],
+            all => all,
+        },
     };
     let triangulators = triangulators.into_iter().map(|one| one.backend(backend.into())).collect();
     Devices { triangulators, ..Devices::default() }
@@ -277,7 +289,7 @@ where
     clock.time("pieces", |show| pieces::write::<M, D, N>(&run, show))?;
     let index = clock.time("links", |show| pieces::link(&run, show))?;
     let State { tiles, steps, sent, .. } = run.state;
-    let (fallbacks, fallback) = run.devices.fallbacks.into_inner().unwrap_or_else(PoisonError::into_inner);
+    let fallbacks = run.devices.fallbacks.into_inner().unwrap_or_else(PoisonError::into_inner);
     run.folder.finish(&index)?;
     let proof = request.verify.then(|| prove::<M, D, N>(path)).transpose()?;
     let report = Report {
@@ -288,9 +300,7 @@ where
         tiles,
         steps,
         sent,
-        gpus: run.devices.triangulators.len(),
-        fallbacks,
-        fallback,
+        gpus: Gpus { count: run.devices.triangulators.len(), fallbacks },
         resumed,
         verified: proof.as_ref().map(Proof::passed),
         seconds: clock.0,
@@ -342,18 +352,23 @@ struct Report {
     steps: u32,
     /// Points that tiles have sent each other.
     sent: u64,
-    /// How many GPUs triangulated tiles.
-    gpus: usize,
-    /// How many tiles the CPU triangulated instead.
-    fallbacks: u32,
-    /// Why it did so for the last one.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    fallback: Option<String>,
+    #[serde(flatten)]
+    gpus: Gpus,
     /// Whether the run went on with what an earlier one had done.
     resumed: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     verified: Option<bool>,
     seconds: BTreeMap<&'static str, f64>,
+}
+
+/// What GPUs did.
+#[derive(Serialize)]
+struct Gpus {
+    /// How many GPUs triangulated tiles.
+    #[serde(rename = "gpus")]
+    count: usize,
+    #[serde(flatten)]
+    fallbacks: Fallbacks,
 }
 
 /// The number of simplices.
@@ -388,11 +403,12 @@ impl fmt::Display for Report {
         if self.sent > 0 {
             write!(f, ", which sent each other {} points in {} steps", self.sent, self.steps)?;
         }
-        if self.gpus > 0 {
-            write!(f, "\nGPUs            {}", self.gpus)?;
+        let Gpus { count, fallbacks } = &self.gpus;
+        if *count > 0 {
+            write!(f, "\nGPUs            {count}")?;
         }
-        if let Some(why) = &self.fallback {
-            write!(f, "; the CPU triangulated {} tiles: {why}", self.fallbacks)?;
+        if let Fallbacks { count, why: Some(why) } = fallbacks {
+            write!(f, "; the CPU triangulated {count} tiles: {why}")?;
         }
         let total: f64 = self.seconds.values().sum();
         write!(f, "\nseconds         {total:.3}")?;
