@@ -1,7 +1,14 @@
 //! What meshes of both dimensions have in common.
 
-use crate::{index::NONE, parallel::Threads, stats::Stats};
-use std::borrow::Cow;
+use crate::{
+    index::NONE,
+    parallel::{self, CHUNK, Threads},
+    stats::Stats,
+};
+use std::{
+    borrow::Cow,
+    sync::atomic::{AtomicU32, AtomicUsize, Ordering::Relaxed},
+};
 
 /// Lists of indices, one after the other in one array: compressed sparse rows.
 ///
@@ -43,6 +50,9 @@ impl Csr {
     /// Sorts simplices by their vertices, which are below `points`: list *v* has the simplices
     /// around *v*, in ascending order.
     pub(crate) fn stars<const N: usize>(simplices: &[[u32; N]], points: usize) -> Self {
+        if parallel::count(Threads::All) > 1 && simplices.len() > CHUNK {
+            return Csr::stars_by_all(simplices, points);
+        }
         // Entry v + 1 counts the simplices of v, then says where the next of them goes, and at last
         // where they end.
         let mut offsets = vec![0; points + 1];
@@ -62,6 +72,38 @@ impl Csr {
             }
         }
         Csr { offsets, indices }
+    }
+
+    /// Does what [`stars`](Self::stars) does on all threads.
+    fn stars_by_all<const N: usize>(simplices: &[[u32; N]], points: usize) -> Self {
+        let for_all = |work: &(dyn Fn(usize, u32) + Sync)| {
+            parallel::map_ranges(Threads::All, simplices.len(), |range| {
+                range.for_each(|t| simplices[t].iter().for_each(|&v| work(t, v)));
+            });
+        };
+        let mut ends: Vec<AtomicUsize> = (0..=points).map(|_| AtomicUsize::new(0)).collect();
+        for_all(&|_, v| _ = ends[v as usize + 1].fetch_add(1, Relaxed));
+        let mut before = 0;
+        for end in &mut ends[1..] {
+            before += std::mem::replace(end.get_mut(), before);
+        }
+        let indices: Vec<AtomicU32> = (0..before).map(|_| AtomicU32::new(0)).collect();
+        for_all(&|t, v| indices[ends[v as usize + 1].fetch_add(1, Relaxed)].store(t as u32, Relaxed));
+        let mut stars = Csr {
+            offsets: ends.into_iter().map(AtomicUsize::into_inner).collect(),
+            indices: indices.into_iter().map(AtomicU32::into_inner).collect(),
+        };
+        // Threads put simplices into the lists in any order.
+        let (mut left, mut parts) = (&mut stars.indices[..], Vec::new());
+        for start in (0..points).step_by(CHUNK) {
+            let ends = &stars.offsets[start..=points.min(start + CHUNK)];
+            let part = left.split_off_mut(..ends[ends.len() - 1] - ends[0]).unwrap_or_default();
+            parts.push((ends, part));
+        }
+        parallel::map_mut(Threads::All, &mut parts, |_, (ends, part)| {
+            ends.windows(2).for_each(|pair| part[pair[0] - ends[0]..pair[1] - ends[0]].sort_unstable());
+        });
+        stars
     }
 
     /// Lists the vertices that share a simplex with each vertex, in ascending order. The vertices

@@ -1,7 +1,7 @@
 //! Work on slices, shared among the machine's threads if it has several.
 
-use crate::platform::sharing::CHUNK;
 pub use crate::platform::sharing::Threads;
+pub(crate) use crate::platform::sharing::{CHUNK, in_pieces};
 #[cfg(feature = "gpu")]
 pub(crate) use crate::platform::threads::Ahead;
 pub(crate) use crate::platform::threads::{

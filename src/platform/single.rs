@@ -1,11 +1,14 @@
 //! Work on slices, in the calling thread.
 
-use crate::{error::Error, platform::sharing::Threads};
+use crate::{
+    error::Error,
+    platform::sharing::{CHUNK, Threads, in_pieces},
+};
 use std::{cmp::Ordering, num::NonZeroUsize, ops::Range};
 
-/// Calls `work` with `items` and the index of the first one.
+/// Calls `work` with every chunk of `items` and the index of its first element.
 pub(crate) fn for_chunks<T: Send>(_: Threads, items: &mut [T], work: impl Fn(usize, &mut [T]) + Sync) {
-    work(0, items);
+    in_pieces(items.len(), CHUNK, &mut |range| work(range.start, &mut items[range]));
 }
 
 /// Calls `work` with `items` and the index of the first one.
@@ -13,13 +16,13 @@ pub(crate) fn for_parts<T: Send>(_: Threads, items: &mut [T], work: impl Fn(usiz
     work(0, items);
 }
 
-/// Calls `work` with two lists of equal length, and the index of their first elements.
+/// Calls `work` with corresponding chunks of two lists of equal length, and the index of their first elements.
 pub(crate) fn for_chunk_pairs<T: Send, U: Send>(
     _: Threads,
     (items, others): (&mut [T], &mut [U]),
     work: impl Fn(usize, (&mut [T], &mut [U])) + Sync,
 ) {
-    work(0, (items, others));
+    in_pieces(items.len(), CHUNK, &mut |range| work(range.start, (&mut items[range.clone()], &mut others[range])));
 }
 
 /// Returns a list of `len` times `value`.
@@ -32,14 +35,16 @@ pub(crate) fn extend<T: Copy + Send + Sync>(_: Threads, list: &mut Vec<T>, items
     list.extend_from_slice(items);
 }
 
-/// Returns the result of `work` for the whole range 0 … `len`.
+/// Splits 0 … `len` into ranges of `grain` elements and returns the results of `work` for each, in order.
 pub(crate) fn map_grains<R: Send>(
     _: Threads,
     len: usize,
-    _grain: usize,
+    grain: usize,
     work: impl Fn(Range<usize>) -> R + Sync,
 ) -> Vec<R> {
-    vec![work(0..len)]
+    let mut results = Vec::new();
+    in_pieces(len, grain, &mut |range| results.push(work(range)));
+    results
 }
 
 /// Returns the results of `work` for each item and its index, in order.
@@ -48,7 +53,9 @@ pub(crate) fn map_mut<T: Send, R: Send>(
     items: &mut [T],
     work: impl Fn(usize, &mut T) -> R + Sync,
 ) -> Vec<R> {
-    items.iter_mut().enumerate().map(|(i, item)| work(i, item)).collect()
+    let mut results = Vec::with_capacity(items.len());
+    in_pieces(items.len(), 1, &mut |range| results.extend(range.map(|i| work(i, &mut items[i]))));
+    results
 }
 
 /// Sorts items of which equal ones are indistinguishable.

@@ -1,10 +1,10 @@
 //! Which vertices other tiles have to know.
 
-use super::{dim::Tiled, in_pieces};
+use super::dim::Tiled;
 use crate::{
     dimension::Dimension,
     geometry::{self, Euclidean, Geometry, vector},
-    parallel::{self, Threads},
+    parallel::{self, CHUNK, Threads},
     slots::Slots,
 };
 
@@ -70,11 +70,7 @@ impl<'a, const D: usize, T> Border<'a, D, T> {
         let belongs =
             |t: &u32| Dimension::<D>::simplex(triangulation, *t).is_some_and(|simplex| simplex.iter().any(is_new));
         let parts = parallel::map_ranges(threads, Dimension::<D>::slots(triangulation) as usize, |range| {
-            let mut simplices = Vec::new();
-            in_pieces(range.len() as u32, &mut |piece| {
-                simplices.extend(piece.map(|t| range.start as u32 + t).filter(&belongs));
-            });
-            simplices
+            (range.start as u32..range.end as u32).filter(&belongs).collect()
         });
         Border { triangulation, vertices, simplices: parallel::joined(parts) }
     }
@@ -134,8 +130,8 @@ impl<'a, const D: usize, T> Border<'a, D, T> {
         Dimension<D>: Tiled<D, N, Triangulation = T>,
     {
         let infinite = self.vertices.infinite();
-        in_pieces(self.simplices.len() as u32, &mut |piece| {
-            for &t in &self.simplices[piece.start as usize..piece.end as usize] {
+        parallel::in_pieces(self.simplices.len(), CHUNK, &mut |piece| {
+            for &t in &self.simplices[piece] {
                 let Some(simplex) = Dimension::<D>::simplex(self.triangulation, t) else { continue };
                 let owners = simplex.map(|v| self.vertices.owner(v));
                 for (k, &to) in owners.iter().enumerate() {

@@ -2,7 +2,6 @@
 
 use super::{
     dim::Tiled,
-    in_pieces,
     part::{self, Around, BorderFacet, Part},
     piece::Piece,
     tile::{Cloud, Tile, Triangulation},
@@ -12,7 +11,7 @@ use crate::{
     error::Error,
     geometry::{self, Euclidean, Geometry, vector},
     index::NONE,
-    parallel::{self, Threads},
+    parallel::{self, CHUNK, Threads},
     slots::Slots,
 };
 use rustc_hash::FxHashMap;
@@ -196,8 +195,8 @@ where
     }
     let [mut simplices, mut neighbors] = Dimension::<D>::into_arrays(triangulation);
     // None moves to the right, so that each is still where it was when it is read.
-    in_pieces(is_kept.len() as u32, &mut |piece| {
-        for t in piece.map(|t| t as usize).filter(|&t| is_kept[t]) {
+    parallel::in_pieces(is_kept.len(), CHUNK, &mut |piece| {
+        for t in piece.filter(|&t| is_kept[t]) {
             let at = number[t] as usize;
             simplices[at] = simplices[t];
             neighbors[at] = neighbors[t].map(|f| match number[(f >> 2) as usize] {

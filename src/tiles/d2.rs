@@ -1,9 +1,6 @@
 //! The 2D parts of tiles.
 
-use super::{
-    dim::{Provable, Tiled},
-    in_pieces,
-};
+use super::dim::{Provable, Tiled};
 use crate::{
     d2::{
         Mesh2,
@@ -50,19 +47,14 @@ impl Tiled<2, 3> for Dimension<2> {
     fn rename(threads: Threads, triangulation: &mut Triangulation2, names: &[u32], infinite: u32) {
         triangulation.infinite = infinite;
         parallel::for_chunks(threads, triangulation.triangles.as_flattened_mut(), |_, vertices| {
-            in_pieces(vertices.len() as u32, &mut |piece| {
-                for v in &mut vertices[piece.start as usize..piece.end as usize] {
-                    *v = names.get(*v as usize).copied().unwrap_or(infinite);
-                }
-            });
+            vertices.iter_mut().for_each(|v| *v = names.get(*v as usize).copied().unwrap_or(infinite));
         });
     }
 
     fn move_infinite(triangulation: &mut Triangulation2, infinite: u32) {
         let before = std::mem::replace(&mut triangulation.infinite, infinite);
         let vertices = triangulation.triangles.as_flattened_mut();
-        in_pieces(vertices.len() as u32, &mut |piece| {
-            let vertices = &mut vertices[piece.start as usize..piece.end as usize];
+        parallel::for_chunks(Threads::One, vertices, |_, vertices| {
             vertices.iter_mut().filter(|v| **v == before).for_each(|v| *v = infinite);
         });
     }

@@ -1,9 +1,6 @@
 //! The 3D parts of tiles.
 
-use super::{
-    dim::{Provable, Tiled},
-    in_pieces,
-};
+use super::dim::{Provable, Tiled};
 use crate::{
     d3::{
         Mesh3,
@@ -50,21 +47,16 @@ impl Tiled<3, 4> for Dimension<3> {
     fn rename(threads: Threads, triangulation: &mut Triangulation3, names: &[u32], infinite: u32) {
         triangulation.infinite = infinite;
         parallel::for_chunks(threads, &mut triangulation.tetrahedra, |_, simplices| {
-            in_pieces(simplices.len() as u32, &mut |piece| {
-                for simplex in &mut simplices[piece.start as usize..piece.end as usize] {
-                    if simplex[0] & state::MASK != state::FREE {
-                        *simplex = simplex.map(|v| names.get(v as usize).copied().unwrap_or(infinite));
-                    }
-                }
-            });
+            for simplex in simplices.iter_mut().filter(|simplex| simplex[0] & state::MASK != state::FREE) {
+                *simplex = simplex.map(|v| names.get(v as usize).copied().unwrap_or(infinite));
+            }
         });
     }
 
     fn move_infinite(triangulation: &mut Triangulation3, infinite: u32) {
         let before = std::mem::replace(&mut triangulation.infinite, infinite);
         let simplices = &mut triangulation.tetrahedra;
-        in_pieces(simplices.len() as u32, &mut |piece| {
-            let simplices = &mut simplices[piece.start as usize..piece.end as usize];
+        parallel::for_chunks(Threads::One, simplices, |_, simplices| {
             simplices.iter_mut().filter(|t| t[3] == before).for_each(|t| t[3] = infinite);
         });
     }

@@ -44,18 +44,7 @@ use crate::{
     options::Options,
     stats::Stats,
 };
-use std::{ops::Range, sync::Arc};
-
-/// Calls `work` for all of `len` items, a few thousand at a time.
-///
-/// Engines of WebAssembly replace code by faster code only when it is called again, which a loop is not.
-#[inline(never)]
-fn in_pieces(len: u32, work: &mut dyn FnMut(Range<u32>)) {
-    const PIECE: usize = 1 << 12;
-    for start in (0..len).step_by(PIECE) {
-        work(start..len.min(start + PIECE as u32));
-    }
-}
+use std::sync::Arc;
 
 /// Triangulates `points` in this many tiles, of which each knows one of `every` points from the start, one after the
 /// other.

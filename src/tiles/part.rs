@@ -1,6 +1,6 @@
 //! The simplices of one tile, and the mesh of all.
 
-use super::{border::Vertices, dim::Tiled, in_pieces};
+use super::{border::Vertices, dim::Tiled};
 use crate::{
     cpu::{Incremental, MeshOf},
     dimension::Dimension,
@@ -9,6 +9,7 @@ use crate::{
     index::NONE,
     mesh::MeshInfo,
     options::{Options, Winding},
+    parallel::{self, CHUNK},
 };
 use rustc_hash::FxHashMap;
 
@@ -108,8 +109,8 @@ where
     });
     let [mut simplices, mut neighbors] = Dimension::<D>::into_arrays(triangulation);
     // None moves to the right, so that each is still where it was when it is read.
-    in_pieces(slots, &mut |piece| {
-        for t in piece.map(|t| t as usize) {
+    parallel::in_pieces(slots as usize, CHUNK, &mut |piece| {
+        for t in piece {
             let this = number[t];
             if this >= GHOST {
                 continue;
@@ -166,8 +167,8 @@ where
     let slots = Dimension::<D>::slots(triangulation);
     let mut number = vec![NONE; slots as usize];
     let mut count = around.map_or(0, |around| around.before);
-    in_pieces(slots, &mut |piece| {
-        for t in piece {
+    parallel::in_pieces(slots as usize, CHUNK, &mut |piece| {
+        for t in piece.start as u32..piece.end as u32 {
             let Some(simplex) = Dimension::<D>::simplex(triangulation, t) else { continue };
             if around.is_some_and(|around| !around.is_around[t as usize]) {
                 continue;

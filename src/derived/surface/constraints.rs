@@ -10,7 +10,7 @@
 //! Normals and sensors decide the sides of poles directly, and are constraints for those of other vertices.
 
 use super::{
-    super::{complex::Complex, groups::Groups},
+    super::complex::Complex,
     evidence::Hints,
     parity::ParitySets,
     poles::Poles,
@@ -22,6 +22,7 @@ use crate::{
     mesh::Csr,
     parallel::{self, Pool, Threads},
 };
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 /// The number of vertices that is worth handing to another thread.
 const GRAIN: usize = 1 << 12;
@@ -97,22 +98,36 @@ struct Numbered<const D: usize> {
 
 impl<const D: usize> Numbered<D> {
     fn new(spheres: &Spheres<D>, poles: &[Poles]) -> Self {
-        let mut numbers = vec![NONE; spheres.radii.len()];
-        for pole in poles.iter().flat_map(|poles| [poles.first, poles.second]).filter(|&pole| pole < BENEATH) {
-            numbers[pole as usize] = 0;
-        }
-        let mut compact = vec![Sphere { center: [0.0; D], radius: 0.0 }];
-        for (t, number) in numbers.iter_mut().enumerate().filter(|(_, number)| **number != NONE) {
-            *number = compact.len() as u32;
-            compact.push(Sphere { center: spheres.centers[t], radius: spheres.radii[t] });
-        }
+        let is_pole: Vec<AtomicBool> = spheres.radii.iter().map(|_| AtomicBool::new(false)).collect();
+        parallel::map_ranges(Threads::All, poles.len(), |range| {
+            let both = poles[range].iter().flat_map(|poles| [poles.first, poles.second]);
+            both.filter(|&pole| pole < BENEATH).for_each(|pole| is_pole[pole as usize].store(true, Relaxed));
+        });
+        let simplices = parallel::joined(parallel::map_ranges(Threads::All, is_pole.len(), |range| {
+            range.filter(|&t| is_pole[t].load(Relaxed)).map(|t| t as u32).collect::<Vec<u32>>()
+        }));
+        let mut numbers = parallel::filled(Threads::All, is_pole.len(), NONE);
+        (1..).zip(&simplices).for_each(|(number, &t)| numbers[t as usize] = number);
         let number = |pole: u32| match pole {
             NONE => NONE,
             OUTSIDE | BENEATH => 0,
             t => numbers[t as usize],
         };
-        let poles = poles.iter().map(|poles| [number(poles.first), number(poles.second)]).collect();
-        Numbered { poles, spheres: compact }
+        let outside = Sphere { center: [0.0; D], radius: 0.0 };
+        let sphere = |t: u32| Sphere { center: spheres.centers[t as usize], radius: spheres.radii[t as usize] };
+        let mut numbered = Numbered {
+            poles: parallel::filled(Threads::All, poles.len(), [NONE; 2]),
+            spheres: parallel::filled(Threads::All, simplices.len() + 1, outside),
+        };
+        parallel::for_chunks(Threads::All, &mut numbered.poles, |start, chunk| {
+            for (numbers, poles) in chunk.iter_mut().zip(&poles[start..]) {
+                *numbers = [number(poles.first), number(poles.second)];
+            }
+        });
+        parallel::for_chunks(Threads::All, &mut numbered.spheres[1..], |start, chunk| {
+            chunk.iter_mut().zip(&simplices[start..]).for_each(|(place, &t)| *place = sphere(t));
+        });
+        numbered
     }
 
     /// Returns the strength of the constraint that the poles of two vertices are on the same side; 0 if there is none.
@@ -229,14 +244,11 @@ impl<'a> Constraints<'a> {
             });
             taken
         }));
-        by_strength(&parts, low, high)
+        let mut taken = parallel::joined(parts);
+        let keys = taken.iter().map(|constraint| u32::from(high - constraint.strength)).collect();
+        parallel::sort_by_keys(Threads::All, &mut taken, keys);
+        taken
     }
-}
-
-/// Returns constraints with strengths from `low` to `high` by falling strength; equal ones in their order.
-fn by_strength(parts: &[Vec<Constraint>], low: u16, high: u16) -> Vec<Constraint> {
-    let keyed = parts.iter().flatten().map(|constraint| (u32::from(high - constraint.strength), *constraint));
-    Groups::new(usize::from(high - low) + 1, keyed).items
 }
 
 /// Returns the pairs of a pole of one vertex and a pole of another.

@@ -9,7 +9,7 @@
 //! is the same whatever the order of the steps.
 //!
 //! So nodes that are near in memory, and in space, find their paths first, each block by itself and in
-//! any thread. The trees stay, and where blocks meet they grow on.
+//! any thread. The trees stay, and where blocks meet they grow on, in larger and larger blocks.
 
 use super::super::complex::Complex;
 use crate::{
@@ -21,8 +21,11 @@ use std::collections::VecDeque;
 /// So many nodes can be numbered, since an arc takes two bits more.
 pub(super) const MAX_NODES: usize = 1 << 30;
 
-/// The number of nodes of a block: they fit into a processor's own cache. The tests' meshes have several.
+/// The number of nodes of the first blocks: they fit into a processor's own cache. The tests' meshes have several.
 const BLOCK: usize = if cfg!(test) { 4 } else { 1 << 14 };
+
+/// How many blocks make a larger one.
+const BLOCKS: usize = if cfg!(test) { 2 } else { 8 };
 
 /// A simplex with its arcs, and its place in a tree.
 #[derive(Debug, Clone, Copy)]
@@ -70,19 +73,32 @@ pub(super) fn inside<const D: usize, const N: usize>(
     excess: &[i32],
 ) -> Vec<bool> {
     let mut nodes = nodes(complex, costs, excess);
-    let mut blocks: Vec<&mut [Node<N>]> = nodes.chunks_mut(BLOCK).collect();
-    let stamps = parallel::map_mut(Threads::All, &mut blocks, |i, block| {
-        let mut forest = Forest::new(block, i * BLOCK, 0);
-        forest.activate(|_, node| node.tree != Tree::None);
-        forest.run();
-        forest.stamp
-    });
-    let mut forest = Forest::new(&mut nodes, 0, stamps.into_iter().max().unwrap_or(0));
-    forest.activate(|i, node| {
-        node.tree != Tree::None && node.mates.iter().any(|&mate| mate != NONE && mate as usize / 4 / BLOCK != i / BLOCK)
-    });
-    forest.run();
-    nodes.iter().map(|node| node.tree != Tree::Demand).collect()
+    let (mut stamp, mut done, mut size) = (0, 1, BLOCK);
+    loop {
+        // Trees cannot grow further but across the borders of the last blocks.
+        let is_border = |i: usize, mate: u32| mate != NONE && mate as usize / 4 / done != i / done;
+        let active = parallel::map_grains(Threads::All, nodes.len(), BLOCK, |range| {
+            let trees = range.filter(|&i| nodes[i].tree != Tree::None);
+            let active = trees.filter(|&i| nodes[i].mates.iter().any(|&mate| is_border(i, mate)));
+            active.map(|i| i as u32).collect::<Vec<u32>>()
+        });
+        let blocks = nodes.chunks_mut(size).zip(active.chunks(size / BLOCK));
+        let mut blocks: Vec<(&mut [Node<N>], &[Vec<u32>])> = blocks.collect();
+        let stamps = parallel::map_mut(Threads::All, &mut blocks, |i, (block, active)| {
+            let mut forest = Forest::new(block, i * size, stamp);
+            active.iter().flatten().for_each(|&node| forest.activate(node - (i * size) as u32));
+            forest.run();
+            forest.stamp
+        });
+        stamp = stamps.into_iter().max().unwrap_or(0);
+        if size >= nodes.len() {
+            break;
+        }
+        (done, size) = (size, size.saturating_mul(BLOCKS));
+    }
+    parallel::joined(parallel::map_ranges(Threads::All, nodes.len(), |range| {
+        nodes[range].iter().map(|node| node.tree != Tree::Demand).collect()
+    }))
 }
 
 /// Returns the nodes, of which supplies and demands are roots.
@@ -137,13 +153,10 @@ impl<'a, const N: usize> Forest<'a, N> {
         Forest { nodes, first, active: VecDeque::new(), orphans: VecDeque::new(), stamp }
     }
 
-    /// Lets trees grow at some nodes.
-    fn activate(&mut self, is_active: impl Fn(usize, &Node<N>) -> bool) {
-        for (i, node) in self.nodes.iter_mut().enumerate() {
-            node.is_active = is_active(self.first + i, node);
-            if node.is_active {
-                self.active.push_back(i as u32);
-            }
+    /// Lets trees grow at a node.
+    fn activate(&mut self, i: u32) {
+        if !std::mem::replace(&mut self.nodes[i as usize].is_active, true) {
+            self.active.push_back(i);
         }
     }
 
@@ -181,6 +194,8 @@ impl<'a, const N: usize> Forest<'a, N> {
 
     /// Makes the neighbours of a node part of its tree. Returns the arc from the tree of a supply to
     /// that of a demand if it finds one.
+    // Engines of WebAssembly replace code by faster code only when it is called again: the loop of `run` is not.
+    #[inline(never)]
     fn grow(&mut self, i: u32) -> Option<(u32, usize)> {
         let Node { tree, depth, stamp, .. } = *self.node(i);
         for k in 0..N {
@@ -192,7 +207,7 @@ impl<'a, const N: usize> Forest<'a, N> {
             if other.tree == Tree::None {
                 (other.tree, other.parent) = (tree, Parent::Arc(l as u8));
                 (other.depth, other.stamp) = (depth + 1, stamp);
-                self.activate_one(j);
+                self.activate(j);
             } else if other.tree != tree {
                 return Some(if tree == Tree::Supply { (i, k) } else { (j, l) });
             } else if other.stamp <= stamp && other.depth > depth + 1 {
@@ -201,12 +216,6 @@ impl<'a, const N: usize> Forest<'a, N> {
             }
         }
         None
-    }
-
-    fn activate_one(&mut self, i: u32) {
-        if !std::mem::replace(&mut self.nodes[i as usize].is_active, true) {
-            self.active.push_back(i);
-        }
     }
 
     /// Calls `visit` with each arc in the direction of the flow on the path from a node to its root, and
@@ -223,6 +232,7 @@ impl<'a, const N: usize> Forest<'a, N> {
 
     /// Sends flow through an arc from the tree of a supply to that of a demand, as much as the paths to
     /// both roots let through.
+    #[inline(never)]
     fn augment(&mut self, from: u32, k: usize) {
         let Some((to, _)) = self.across(from, k) else { return };
         let mut amount = self.node(from).residual[k];
@@ -270,6 +280,7 @@ impl<'a, const N: usize> Forest<'a, N> {
     }
 
     /// Finds another parent for a node of a tree, or else makes it part of none.
+    #[inline(never)]
     fn adopt(&mut self, i: u32) {
         let tree = self.node(i).tree;
         let mut best = (u32::MAX, 0);
@@ -287,7 +298,7 @@ impl<'a, const N: usize> Forest<'a, N> {
         for k in 0..N {
             let Some((j, l)) = self.across(i, k).filter(|&(j, _)| self.node(j).tree == tree) else { continue };
             if self.outward(tree, (j, l), (i, k)) > 0 {
-                self.activate_one(j);
+                self.activate(j);
             }
             if self.node(j).parent == Parent::Arc(l as u8) {
                 self.lose_parent(j);

@@ -73,12 +73,20 @@ where
         &self,
         stars: &Csr,
         options: &SurfaceOptions<'_, D>,
-        position: &dyn Fn(u32) -> [f64; D],
+        position: &(dyn Fn(u32) -> [f64; D] + Sync),
     ) -> Surface<D, N> {
         let complex = &self.mesh.complex;
         let hints = Hints::new(complex.points(), &self.mesh.points, self.scale, options);
         let (is_inside, dropped) = self.inside(stars, options, &hints);
-        let Shell { mut boundary, mut vertices, evidence } = self.shell(&is_inside, &hints, options.open, position);
+        let solid = || {
+            let solid = parallel::map_ranges(Threads::All, is_inside.len(), |range| {
+                range.filter(|&t| is_inside[t]).map(|t| self.mesh.given(complex.simplices[t])).collect()
+            });
+            (parallel::joined(solid), solid::volume(complex, &is_inside))
+        };
+        let shell = || self.shell(&is_inside, &hints, options.open, position);
+        let (Shell { mut boundary, mut vertices, evidence }, (solid, volume)) =
+            parallel::both(Threads::All, shell, solid);
         let topology = Topology::new(&boundary, vertices.len());
         let sides = self.sides(&is_inside, &boundary.sources);
         let mut gain = 0.0;
@@ -89,13 +97,10 @@ where
         }
         // The power of the scale may underflow.
         let unscaled = |measure: f64, power: usize| (0..power).fold(measure, |measure, _| measure / self.scale);
-        let solid = parallel::map_ranges(Threads::All, is_inside.len(), |range| {
-            range.filter(|&t| is_inside[t]).map(|t| self.mesh.given(complex.simplices[t])).collect()
-        });
         Surface {
-            solid: parallel::joined(solid),
+            solid,
             sides,
-            volume: unscaled(solid::volume(complex, &is_inside) + gain, D),
+            volume: unscaled(volume + gain, D),
             area: unscaled(boundary::area(&boundary.facets, &vertices, self.scale), D - 1),
             topology,
             vertices,
@@ -109,7 +114,13 @@ where
 
     /// Returns the boundary of the solid, and what its side is known by; on request without the facets that
     /// close gaps, if those are many.
-    fn shell(&self, is_inside: &[bool], hints: &Hints<D>, open: Open, position: &dyn Fn(u32) -> [f64; D]) -> Shell<D> {
+    fn shell(
+        &self,
+        is_inside: &[bool],
+        hints: &Hints<D>,
+        open: Open,
+        position: &(dyn Fn(u32) -> [f64; D] + Sync),
+    ) -> Shell<D> {
         let Sorted { complex, points: names, .. } = &self.mesh;
         let boundary = Boundary::new(complex, names, is_inside);
         let mut shell = Shell::new(boundary, hints.kind().unwrap_or(Evidence::Hull), position);
@@ -145,15 +156,14 @@ where
         drop((spheres, poles));
         let evident = hints.votes(complex, stars);
         let hull_excess = |t: usize, k: usize| hints.hull_excess(complex, facet(&complex.simplices[t], k), costs[t][k]);
-        let excess: Vec<i32> = votes
-            .iter()
-            .enumerate()
-            .map(|(t, &votes)| {
-                let votes = i32::from(votes) + evident.get(t).copied().unwrap_or(0);
+        let mut excess = vec![0; votes.len()];
+        parallel::for_chunks(Threads::All, &mut excess, |start, chunk| {
+            for (excess, t) in chunk.iter_mut().zip(start..) {
+                let votes = i32::from(votes[t]) + evident.get(t).copied().unwrap_or(0);
                 let hull = (0..N).filter(|&k| complex.across(t, k).is_none()).map(|k| hull_excess(t, k));
-                capacity::UNIT * votes + hull.sum::<i32>()
-            })
-            .collect();
+                *excess = capacity::UNIT * votes + hull.sum::<i32>();
+            }
+        });
         let mut is_inside = cut::inside(complex, &costs, &excess);
         let dropped = solid::drop_small(complex, &mut is_inside, options.min_part);
         (is_inside, dropped)
@@ -186,7 +196,7 @@ struct Shell<const D: usize> {
 }
 
 impl<const D: usize> Shell<D> {
-    fn new(mut boundary: Boundary<D>, evidence: Evidence, position: &dyn Fn(u32) -> [f64; D]) -> Self {
+    fn new(mut boundary: Boundary<D>, evidence: Evidence, position: &(dyn Fn(u32) -> [f64; D] + Sync)) -> Self {
         let finite = |point: u32| if point == INFINITY { [f64::INFINITY; D] } else { position(point) };
         let mut vertices: Vec<[f64; D]> = boundary.sources.iter().map(|&point| finite(point)).collect();
         for &[a, b] in &boundary.middles {

@@ -5,6 +5,7 @@ use crate::{
     geometry::{Euclidean, Geometry, measure},
     parallel::{self, Threads},
 };
+use rustc_hash::FxHashMap;
 
 /// Removes the pieces of the solid, and fills its cavities, that are smaller than `share` of its
 /// largest piece. Pieces and cavities hang together across facets. Returns how many they were.
@@ -24,42 +25,41 @@ where
         let across = (0..N).filter(move |_| t < count).filter_map(move |k| complex.across(t, k));
         across.filter(move |&across| across < t && sides[across] == sides[t]).map(|across| across as u32)
     });
-    for t in (0..count).filter(|&t| !is_inside[t]) {
-        if (0..N).any(|k| complex.across(t, k).is_none()) {
-            sets.unite(t as u32, count as u32);
+    let on_hull = parallel::map_ranges(Threads::All, count, |range| {
+        let outside = range.filter(|&t| !sides[t] && (0..N).any(|k| complex.across(t, k).is_none()));
+        outside.map(|t| t as u32).collect::<Vec<u32>>()
+    });
+    for t in on_hull.into_iter().flatten() {
+        sets.unite(t, count as u32);
+    }
+    let unbounded = sets.root(count as u32);
+    // Neighbours in memory mostly are neighbours in space: few parts of their sets have to be added up.
+    let parts = parallel::map_ranges(Threads::All, count, |range| {
+        let mut parts: Vec<(u32, f64)> = Vec::new();
+        for t in range {
+            let (root, volume) = (sets.root(t as u32), measure(&complex.corners(t)));
+            match parts.last_mut().filter(|&&mut (last, _)| last == root) {
+                Some((_, sum)) => *sum += volume,
+                None => parts.push((root, volume)),
+            }
         }
+        parts
+    });
+    let mut volumes: FxHashMap<u32, f64> = FxHashMap::default();
+    for (root, volume) in parts.into_iter().flatten().filter(|&(root, _)| root != unbounded) {
+        *volumes.entry(root).or_default() += volume;
     }
-    let unbounded = sets.find(count as u32);
-    let mut volumes = vec![0.0; count + 1];
-    for (t, volume) in (0..).zip(measures(complex, |_| true)) {
-        volumes[sets.find(t) as usize] += volume;
+    let largest = volumes.iter().filter(|&(&t, _)| sides[t as usize]).map(|(_, &volume)| volume).fold(0.0, f64::max);
+    volumes.retain(|_, &mut volume| volume > 0.0 && volume < share * largest);
+    let cavities = volumes.keys().filter(|&&t| !sides[t as usize]).count();
+    if !volumes.is_empty() {
+        parallel::for_chunks(Threads::All, is_inside, |start, chunk| {
+            for (is_inside, t) in chunk.iter_mut().zip(start as u32..) {
+                *is_inside ^= volumes.contains_key(&sets.root(t));
+            }
+        });
     }
-    let roots = || volumes.iter().enumerate().filter(|&(t, &volume)| volume > 0.0 && t != unbounded as usize);
-    let largest = roots().filter(|&(t, _)| is_inside[t]).map(|(_, &volume)| volume).fold(0.0, f64::max);
-    let is_small = |t: usize| t != unbounded as usize && volumes[t] > 0.0 && volumes[t] < share * largest;
-    let mut dropped = [0; 2];
-    for (t, _) in roots().filter(|&(t, _)| is_small(t)) {
-        dropped[usize::from(!is_inside[t])] += 1;
-    }
-    if dropped != [0; 2] {
-        for (t, is_inside) in is_inside.iter_mut().enumerate() {
-            *is_inside ^= is_small(sets.find(t as u32) as usize);
-        }
-    }
-    dropped
-}
-
-/// Returns the measures of some simplices, in their order.
-fn measures<const D: usize, const N: usize>(
-    complex: &Complex<'_, D, N>,
-    is_meant: impl Fn(usize) -> bool + Sync,
-) -> Vec<f64>
-where
-    Euclidean: Geometry<D, N>,
-{
-    parallel::joined(parallel::map_ranges(Threads::All, complex.simplices.len(), |range| {
-        range.filter(|&t| is_meant(t)).map(|t| measure(&complex.corners(t))).collect()
-    }))
+    [volumes.len() - cavities, cavities]
 }
 
 /// Returns the sum of the measures of the simplices that are inside, whatever their order.
@@ -67,7 +67,9 @@ pub(super) fn volume<const D: usize, const N: usize>(complex: &Complex<'_, D, N>
 where
     Euclidean: Geometry<D, N>,
 {
-    let mut measures = measures(complex, |t| is_inside[t]);
+    let mut measures = parallel::joined(parallel::map_ranges(Threads::All, is_inside.len(), |range| {
+        range.filter(|&t| is_inside[t]).map(|t| measure(&complex.corners(t))).collect::<Vec<f64>>()
+    }));
     // Sums of numbers that are rounded depend on their order.
     parallel::sort_by(Threads::All, &mut measures, f64::total_cmp);
     measures.into_iter().fold(0.0, |sum, measure| sum + measure)
