@@ -108,10 +108,10 @@ pub use d3::{
     verify::{MeshView3, verify3d},
 };
 pub use derived::{
-    AlphaComplex, AlphaShape, AlphaShape2, Cell, Clip, Contour, Contours, Contours2, Diagram, Duplicates, Evidence,
-    FaceClass, Grid, Interpolated, Interpolation, Interpolator, Interpolator2, Interval, Location, Locator, Locator2,
-    Open, Outside, Side, SpanningTree, Sphere, Surface, SurfaceOptions, Transport, TransportOptions, Voronoi, Voronoi2,
-    WeightTable, lon_lat, on_sphere,
+    AlphaComplex, AlphaShape, AlphaShape2, BallComplex, BallComplex2, Cell, Clip, Contour, Contours, Contours2,
+    Diagram, Duplicates, Evidence, FaceClass, Grid, Interpolated, Interpolation, Interpolator, Interpolator2, Interval,
+    Location, Locator, Locator2, Open, Outside, Side, SpanningTree, Sphere, Surface, SurfaceOptions, Transport,
+    TransportOptions, Voronoi, Voronoi2, WeightTable, lon_lat, on_sphere,
 };
 #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
 pub use derived::{DeviceLocator, DeviceLocator2, Locations};

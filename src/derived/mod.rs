@@ -7,6 +7,7 @@
 //! are a function of the mesh and the query, whatever the number of threads.
 
 mod alpha;
+mod balls;
 mod border;
 mod complex;
 mod contours;
@@ -28,6 +29,7 @@ mod tree;
 mod voronoi;
 
 pub use alpha::{AlphaComplex, AlphaEdges, AlphaShape, AlphaShape2, FaceClass, Interval, SingularEdges, singular};
+pub use balls::{BallComplex, BallComplex2};
 pub use contours::{Contour, Contours, Contours2};
 #[cfg(all(feature = "gpu", not(target_arch = "wasm32")))]
 pub use device_locator::{DeviceLocator, DeviceLocator2, Locations};

@@ -27,7 +27,7 @@ fn integer(x: f64) -> BigInt {
     if x < 0.0 { -magnitude } else { magnitude }
 }
 
-fn determinant(rows: &[Vec<BigInt>]) -> BigInt {
+pub fn determinant(rows: &[Vec<BigInt>]) -> BigInt {
     if rows.is_empty() {
         return BigInt::from(1);
     }

@@ -1,6 +1,7 @@
 //! What is derived from meshes, against brute force.
 
 mod alpha;
+mod balls;
 mod border;
 mod broken;
 #[path = "../shared/clouds.rs"]

@@ -39,6 +39,13 @@ pub enum FaceClass {
     Interior,
 }
 
+impl FaceClass {
+    /// Returns whether the face is part of the complex.
+    pub fn is_part(self) -> bool {
+        self != FaceClass::Exterior
+    }
+}
+
 /// The alpha complex for one radius, which [`AlphaShape::at`] returns.
 ///
 /// # Examples
