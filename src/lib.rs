@@ -31,6 +31,7 @@
 //! | Which region belongs to each point, how large is it, who are its neighbours? | [`Voronoi`] |
 //! | With which weights do the cells have given volumes? | [`Triangulator::transport3d`] |
 //! | Which solid, or which surface, do the points describe? | [`AlphaShape`] |
+//! | Which balls meet, and which shape has their union? | [`BallComplex`] |
 //! | What connects all points at the least length? Which clusters are there? | [`SpanningTree`] |
 //! | Which triangles has a polygon with holes, or a terrain with breaklines? | [`Triangulator::constrained2d`] |
 //! | How does such a mesh get triangles for simulations, without small angles? | [`Constrained2::refine`] |

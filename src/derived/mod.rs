@@ -1,5 +1,5 @@
 //! What is derived from a triangulation: point location, nearest vertices, interpolation, Voronoi
-//! diagrams and their weights for given volumes, contours, alpha shapes, minimum spanning trees and closed surfaces, written once for 2D and 3D; and points
+//! diagrams and their weights for given volumes, contours, alpha shapes of points and balls, minimum spanning trees and closed surfaces, written once for 2D and 3D; and points
 //! on a sphere.
 //!
 //! Signs are exact: which simplex contains a point, which vertex is nearest, which simplices belong

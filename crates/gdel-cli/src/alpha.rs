@@ -1,13 +1,14 @@
-//! `gdel alpha`: the alpha shape of points.
+//! `gdel alpha`: the alpha shape of points, or of balls.
 
 use super::{
     derive::{Common, Found, Number, SolidFormat, parse_solid, write, write_triangles},
     dimension::{Triangulation, in_dimension},
     failure::Failure,
+    weights::Weights,
 };
 use clap::{Args, builder::TypedValueParser, error::ErrorKind};
 use gdel::{
-    AlphaShape, Error, Points,
+    AlphaShape, BallComplex, Error, FaceClass, Points,
     internals::{
         derived::{SingularEdges, singular},
         geometry::Euclidean,
@@ -16,16 +17,21 @@ use gdel::{
 use gdel_io::{CellShape, Grid, files::ResultOutput};
 use std::num::NonZeroUsize;
 
-/// Compute the alpha shape of points: a solid for a radius alpha, and its surface.
+/// Compute the alpha shape of points: a solid for a radius alpha, and its surface; with `--weights` or `--radii` that of
+/// balls.
 #[derive(Args)]
 pub(super) struct Arguments {
     #[command(flatten)]
     common: Common,
-    /// The radius; `auto` is the smallest one with which all points belong to the solid and the
-    /// solid has no more components than `--components`. Either takes what is as large up to rounding
-    #[arg(long, default_value = "auto", allow_negative_numbers = true)]
+    #[command(flatten)]
+    weights: Weights,
+    /// The radius; `auto`, the default, is the smallest one with which all points belong to the solid and the
+    /// solid has no more components than `--components`. Either takes what is as large up to rounding. With weights, its
+    /// square is added to them, exactly, and the default is 0: the dual complex of the balls, with the components,
+    /// tunnels and voids of their union
+    #[arg(long, allow_negative_numbers = true)]
     #[arg(value_parser = clap::builder::StringValueParser::new().try_map(|text| parse_alpha(&text)))]
-    alpha: Alpha,
+    alpha: Option<Alpha>,
     /// With `--alpha auto`: the largest number of components, 1 if not given
     #[arg(long, value_name = "N")]
     components: Option<NonZeroUsize>,
@@ -74,17 +80,32 @@ fn run_in<M: Triangulation<D, N>, const D: usize, const N: usize>(arguments: &Ar
 where
     Euclidean: SingularEdges<D, N>,
 {
-    let Arguments { common, alpha, components, singular, output } = arguments;
-    if let (Alpha::Radius(_), Some(_)) = (alpha, components) {
-        return Err(Failure::Usage(ErrorKind::ArgumentConflict, "--components needs --alpha auto".into()));
+    let Arguments { common, weights, alpha, components, singular, output } = arguments;
+    let default = if weights.are_given() { Alpha::Radius(0.0) } else { Alpha::Auto };
+    let alpha = alpha.unwrap_or(default);
+    let conflict = |what: &str| Err(Failure::Usage(ErrorKind::ArgumentConflict, what.into()));
+    match alpha {
+        Alpha::Radius(_) if components.is_some() => return conflict("--components needs --alpha auto"),
+        Alpha::Auto if weights.are_given() => return conflict("with weights, --alpha has to be a number"),
+        _ => {}
     }
     if *singular && !matches!(output.format(), SolidFormat::Vtu) {
-        return Err(Failure::Usage(ErrorKind::ArgumentConflict, "--singular needs an output that ends in .vtu".into()));
+        return conflict("--singular needs an output that ends in .vtu");
     }
-    let wanted = Wanted { alpha: *alpha, components: components.map_or(1, NonZeroUsize::get), singular: *singular };
-    let cloud = common.read_for::<D, _>(output)?;
-    let points = Points::from(&cloud);
-    let (_, parts) = common.run::<M, D, N, _>(points, "alpha", |mesh| find(mesh, points, wanted))?;
+    let wanted = Wanted { alpha, components: components.map_or(1, NonZeroUsize::get), singular: *singular };
+    let input = common.input()?;
+    common.check(output, &[input.path()])?;
+    let (cloud, weights) = weights.read::<D>(&input)?;
+    let (points, weights) = (Points::from(&cloud), weights.as_deref());
+    let (_, parts) = common.run_weighted::<M, D, N, _>((points, weights), "alpha", |mesh| {
+        let complex = match (weights, wanted.alpha) {
+            (Some(weights), Alpha::Radius(radius)) => {
+                of_balls(&BallComplex::new(mesh, points, weights, radius)?, radius)
+            }
+            _ => of_points(mesh, points, wanted)?,
+        };
+        Ok(found(complex, mesh, wanted))
+    })?;
     let Parts { solid, surface, singular } = parts;
     match output.format() {
         SolidFormat::Vtu => {
@@ -109,11 +130,26 @@ struct Wanted {
     singular: bool,
 }
 
-fn find<M: gdel::Mesh<D, N>, const D: usize, const N: usize>(
+/// A complex for a radius.
+struct Complex<const D: usize> {
+    radius: f64,
+    /// The numbers of the simplices that are part of it.
+    solid: Vec<usize>,
+    surface: Vec<[u32; D]>,
+    components: usize,
+    /// The faces that belong to nothing larger.
+    facets: Vec<[u32; D]>,
+    edges: Vec<[u32; 2]>,
+    vertices: Vec<u32>,
+    /// Whether there are facets at all.
+    has_facets: bool,
+}
+
+fn of_points<M: gdel::Mesh<D, N>, const D: usize, const N: usize>(
     mesh: &M,
     points: Points<'_, D>,
     wanted: Wanted,
-) -> Result<Found<Parts<D, N>>, Error>
+) -> Result<Complex<D>, Error>
 where
     Euclidean: SingularEdges<D, N>,
 {
@@ -124,36 +160,80 @@ where
         Alpha::Auto => shape.auto_alpha(wanted.components).unwrap_or(0.0),
     };
     let complex = shape.at(radius)?;
-    let mut parts = Parts {
-        solid: complex.solid().map(|t| mesh.simplices()[t]).collect(),
+    let mut found = Complex {
+        radius,
+        solid: complex.solid().collect(),
         surface: complex.surface().collect(),
+        components: complex.components().1,
+        facets: Vec::new(),
+        edges: Vec::new(),
+        vertices: Vec::new(),
+        has_facets: shape.facets().next().is_some(),
+    };
+    // They take longer than all else.
+    if wanted.singular || mesh.simplices().is_empty() {
+        found.facets = singular(complex.facets());
+        found.edges = Euclidean::singular_edges(&complex);
+        found.vertices = singular(complex.vertices());
+    }
+    Ok(found)
+}
+
+fn of_balls<const D: usize, const N: usize>(complex: &BallComplex<D, N>, radius: f64) -> Complex<D>
+where
+    Euclidean: SingularEdges<D, N>,
+{
+    fn copied<F: Copy>(faces: &[(F, FaceClass)]) -> Vec<F> {
+        singular(faces.iter().copied())
+    }
+    Complex {
+        radius,
+        solid: complex.solid().collect(),
+        surface: complex.surface().to_vec(),
+        components: complex.components().1,
+        facets: copied(complex.facets()),
+        edges: copied(complex.edges()),
+        vertices: copied(complex.vertices()),
+        has_facets: !complex.facets().is_empty(),
+    }
+}
+
+/// Returns what files hold of a complex, and what is printed.
+fn found<M: gdel::Mesh<D, N>, const D: usize, const N: usize>(
+    complex: Complex<D>,
+    mesh: &M,
+    wanted: Wanted,
+) -> Found<Parts<D, N>> {
+    let mut parts = Parts {
+        solid: complex.solid.iter().map(|&t| mesh.simplices()[t]).collect(),
+        surface: complex.surface,
         singular: Vec::new(),
     };
     let mut numbers = vec![
-        ("alpha", Number::Real(radius)),
+        ("alpha", Number::Real(complex.radius)),
         ("solid", Number::Count(parts.solid.len())),
         ("surface", Number::Count(parts.surface.len())),
-        ("components", Number::Count(complex.components().1)),
+        ("components", Number::Count(complex.components)),
     ];
-    let lists = |faces: Vec<[u32; D]>| faces.into_iter().map(Vec::from).collect();
+    fn lists<const K: usize>(faces: &[[u32; K]]) -> Vec<Vec<u32>> {
+        faces.iter().map(|face| face.to_vec()).collect()
+    }
     if mesh.simplices().is_empty() && !wanted.singular {
         // What points in a plane or on a line have instead of simplices.
-        let edges = || Euclidean::singular_edges(&complex).into_iter().map(Vec::from).collect();
-        let is_plane = D == 3 && shape.facets().next().is_some();
-        let cells: Vec<_> = if is_plane { lists(singular(complex.facets())) } else { edges() };
+        let is_plane = D == 3 && complex.has_facets;
+        let cells = if is_plane { lists(&complex.facets) } else { lists(&complex.edges) };
         numbers.push((if is_plane { "triangles" } else { "segments" }, Number::Count(cells.len())));
         parts.singular.push((if is_plane { CellShape::Triangle } else { CellShape::Line }, cells));
     }
     if wanted.singular {
-        let edges = Euclidean::singular_edges(&complex).into_iter().map(Vec::from).collect();
-        let vertices = singular(complex.vertices()).into_iter().map(|v| vec![v]).collect();
+        let vertices = complex.vertices.iter().map(|&v| vec![v]).collect();
         if D == 3 {
-            parts.singular.push((CellShape::Triangle, lists(singular(complex.facets()))));
+            parts.singular.push((CellShape::Triangle, lists(&complex.facets)));
         }
-        parts.singular.extend([(CellShape::Line, edges), (CellShape::Vertex, vertices)]);
+        parts.singular.extend([(CellShape::Line, lists(&complex.edges)), (CellShape::Vertex, vertices)]);
         let names = ["singular_triangles", "singular_edges", "singular_vertices"];
         let counts = parts.singular.iter().map(|(_, faces)| Number::Count(faces.len()));
         numbers.extend(names[3 - parts.singular.len()..].iter().copied().zip(counts));
     }
-    Ok(Found { result: parts, numbers })
+    Found { result: parts, numbers }
 }

@@ -46,6 +46,39 @@ fn flat_points_with_weights() {
     assert!((areas.sum::<f64>() - 16.0).abs() < 1e-12, "{cells}");
 }
 
+/// Balls of a grid that touch have all edges and nothing larger; some that do not have none.
+#[test]
+fn alpha_complexes_of_balls() {
+    let folder = folder();
+    let path = folder.path();
+    let row = |i: u32| format!("{},{},{},0.5,0.49\n", i % 3, i / 3 % 3, i / 9);
+    fs::write(
+        path.join("grid.csv"),
+        ["x,y,z,r,s\n".to_owned()].into_iter().chain((0..27).map(row)).collect::<String>(),
+    )
+    .unwrap();
+    let run = |arguments: &[&str]| {
+        let fixed = ["alpha", "grid.csv", "--singular", "--stats", "json", "-fo", "balls.vtu"];
+        serde_json::from_str::<serde_json::Value>(&succeeds(path, &[&fixed, arguments].concat()))
+            .expect("one JSON object")
+    };
+    let counts = |stats: &serde_json::Value| {
+        ["solid", "singular_triangles", "singular_edges", "singular_vertices", "components"]
+            .map(|name| stats[name].as_u64().unwrap())
+    };
+    assert_eq!(counts(&run(&["--radii", "r"])), [0, 0, 54, 0, 1]);
+    assert!(fs::read_to_string(path.join("balls.vtu")).unwrap().contains("NumberOfCells=\"54\""));
+    assert_eq!(counts(&run(&["--radii", "s"])), [0, 0, 0, 27, 27]);
+    // Half of a cube's diagonal fills all.
+    assert_eq!(counts(&run(&["--radii", "r", "--alpha", "0.75"]))[1..], [0, 0, 0, 1]);
+    assert_eq!(run(&["--weights", "r", "--alpha", "0.5"])["alpha"], 0.5);
+    let fails = |arguments: &[&str], what: &str| {
+        fails_with(gdel(path, &[&["alpha", "grid.csv", "-fo", "balls.vtu"], arguments].concat()), what);
+    };
+    fails(&["--radii", "r", "--alpha", "auto"], "with weights, --alpha has to be a number");
+    fails(&["--radii", "r", "--components", "2"], "--components needs --alpha auto");
+}
+
 #[test]
 fn bad_weights() {
     let folder = folder();
