@@ -25,7 +25,7 @@ pub(super) struct Arguments {
     weights: Weights,
     /// Take points and queries as longitude and latitude in degrees: `simplex` is then `triangle`, the number of a
     /// triangle in the hull that `triangulate --sphere` writes
-    #[arg(long, conflicts_with_all = ["dim", "exact"])]
+    #[arg(long, conflicts_with_all = ["dim", "exact", "weights", "radii"])]
     sphere: bool,
     /// Leave queries outside that are outside the hull by no more than coordinates are rounded: four
     /// units in the last place of the largest coordinate of each axis

@@ -61,7 +61,7 @@ pub(super) struct Arguments {
     dim: Option<Dimension>,
     /// Take the points as longitude and latitude in degrees: the hull of the points of the unit sphere is
     /// their triangulation there
-    #[arg(long, conflicts_with_all = ["dim", "rescale"])]
+    #[arg(long, conflicts_with_all = ["dim", "rescale", "weights", "radii"])]
     sphere: bool,
     /// The format of the input, whatever its extension
     #[arg(long, value_parser = input_parser())]

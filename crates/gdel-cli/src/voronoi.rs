@@ -30,7 +30,7 @@ pub(super) struct Arguments {
     clip: ClipShape,
     /// Take points as longitude and latitude in degrees: the cells cover the sphere. Areas are
     /// in steradians; .vtu has the cells on the unit sphere, .npz the longitudes and latitudes of corners
-    #[arg(long, conflicts_with_all = ["dim", "clip"])]
+    #[arg(long, conflicts_with_all = ["dim", "clip", "weights", "radii"])]
     sphere: bool,
     /// Where to write: the cells as .vtu (those that are bounded); the volume, the centre of mass
     /// and the neighbours of each point's cell as .csv; all arrays as .npz

@@ -10,10 +10,10 @@ use gdel_io::{PointCloud, files::Input};
 pub(super) struct Weights {
     /// Compute the regular triangulation of points with weights: the column of the input that holds these, by its name
     /// in the first line or its number, counted from 1. The input must be text or CSV
-    #[arg(long, value_name = "COLUMN", conflicts_with_all = ["radii", "sphere"])]
+    #[arg(long, value_name = "COLUMN", conflicts_with = "radii")]
     weights: Option<String>,
     /// The same with the squares of a column of radii for weights
-    #[arg(long, value_name = "COLUMN", conflicts_with = "sphere")]
+    #[arg(long, value_name = "COLUMN")]
     radii: Option<String>,
 }
 
