@@ -694,6 +694,11 @@ fn wrong_usage() {
         (&["alpha", "cube.csv", "--alpha", "nan", "-o", "o.ply"], "not negative"),
         (&["alpha", "cube.csv", "--components", "0", "-o", "o.ply"], "--components"),
         (&["alpha", "cube.csv", "--alpha", "1", "--components", "2", "-o", "o.ply"], "--components needs --alpha auto"),
+        (
+            &["alpha", "cube.csv", "--radii", "1", "--alpha", "auto", "-o", "o.ply"],
+            "with weights, --alpha has to be a number",
+        ),
+        (&["alpha", "cube.csv", "--radii", "1", "--components", "2", "-o", "o.ply"], "--components needs --alpha auto"),
         (&["alpha", "cube.csv", "--singular", "-o", "o.ply"], "--singular needs an output that ends in .vtu"),
         (&["alpha", "cube.csv", "-o", "o.csv"], "o.csv: unknown extension, alpha shapes end in .ply"),
         (&["tree", "cube.csv", "-o", "o.ply"], "o.ply: unknown extension, spanning trees end in .csv, .npz, .vtu"),

@@ -73,11 +73,6 @@ fn alpha_complexes_of_balls() {
     // Half of a cube's diagonal fills all.
     assert_eq!(counts(&run(&["--radii", "r", "--alpha", "0.75"]))[1..], [0, 0, 0, 1]);
     assert_eq!(run(&["--weights", "r", "--alpha", "0.5"])["alpha"], 0.5);
-    let fails = |arguments: &[&str], what: &str| {
-        fails_with(gdel(path, &[&["alpha", "grid.csv", "-fo", "balls.vtu"], arguments].concat()), what);
-    };
-    fails(&["--radii", "r", "--alpha", "auto"], "with weights, --alpha has to be a number");
-    fails(&["--radii", "r", "--components", "2"], "--components needs --alpha auto");
 }
 
 #[test]
