@@ -21,6 +21,7 @@ from gdel._interpolate import (
     griddata,
 )
 from gdel._tin import Tin, tin
+from gdel._transport import Transport, transport
 from gdel._voronoi import Voronoi
 
 __all__ = [
@@ -36,6 +37,7 @@ __all__ = [
     "SpanningTree",
     "Surface",
     "Tin",
+    "Transport",
     "VerifyReport",
     "Voronoi",
     "__version__",
@@ -46,5 +48,6 @@ __all__ = [
     "nearest",
     "surface",
     "tin",
+    "transport",
     "tsearch",
 ]

@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 Backend: TypeAlias = Literal["auto", "cpu", "gpu"]
 Progress: TypeAlias = bool | Callable[[str, float], object] | None
+Clip: TypeAlias = Literal["box", "hull"] | npt.ArrayLike
 Points: TypeAlias = npt.NDArray[np.float32] | npt.NDArray[np.float64]
 Indices: TypeAlias = npt.NDArray[np.int32]
 Floats: TypeAlias = npt.NDArray[np.float64]
@@ -41,6 +42,28 @@ def as_aligned(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
     return np.require(array, requirements=["C", "A"])
 
 
+def as_numbers(values: npt.ArrayLike, name: str) -> Floats:
+    """Return numbers as an array of one axis."""
+    array = as_floats(values, name)
+    if array.ndim != 1:
+        raise ValueError(f"{name} must have one axis, not the shape {array.shape}")
+    numbers: Floats = array.astype(np.float64, copy=False)
+    return numbers
+
+
+def as_clip(clip: Clip | None, ndim: int) -> str | Floats | None:
+    """Return what cells are clipped to: nothing, a name, or an array of corners, two of which are those of a box."""
+    if clip is None or isinstance(clip, str):
+        return clip
+    corners = as_floats(clip, "clip")
+    if corners.ndim != 2 or corners.shape[1] != ndim or len(corners) < 2:
+        raise ValueError(f"clip must have one row of {ndim} coordinates per corner, two for a box: {corners.shape}")
+    if not np.isfinite(corners).all():
+        raise ValueError("clip must have finite coordinates")
+    # A copy, which the caller does not change.
+    return np.array(corners, np.float64)
+
+
 def as_weights(weights: npt.ArrayLike | None, radii: npt.ArrayLike | None) -> Floats | None:
     """Return weights as an array of one axis, or those of radii, which are their squares."""
     if weights is not None and radii is not None:
@@ -48,10 +71,7 @@ def as_weights(weights: npt.ArrayLike | None, radii: npt.ArrayLike | None) -> Fl
     name, given = ("weights", weights) if radii is None else ("radii", radii)
     if given is None:
         return None
-    array = as_floats(given, name)
-    if array.ndim != 1:
-        raise ValueError(f"{name} must have one axis, not the shape {array.shape}")
-    numbers: Floats = array.astype(np.float64, copy=False)
+    numbers = as_numbers(given, name)
     if radii is None:
         return numbers
     bad = np.flatnonzero(~(numbers >= 0))

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from functools import cached_property
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
 from gdel._delaunay import Delaunay
-from gdel._points import Backend, Floats, Indices, Points, Progress
+from gdel._points import Backend, Clip, Floats, Indices, Points, Progress, as_clip
 
 if TYPE_CHECKING:
     import geopandas
@@ -75,9 +75,11 @@ class Voronoi:
     points, furthest_site, incremental, qhull_options, backend, threads, progress
         As for `Delaunay`. As in SciPy, there is an empty region unless `qhull_options` lacks ``Qz``.
     clip
-        What `volumes`, `centroids` and `cell_neighbors` are clipped to: `None`, ``"hull"``, or a box as its lowest and
-        highest corner. The other attributes are those of the diagram that is not clipped. Points in a plane or on a
-        line have polygons or segments as cells, unless these are clipped to a box that has an inside.
+        What `volumes`, `centroids` and `cell_neighbors` are clipped to: `None`, ``"box"`` (the smallest one that
+        contains all points), ``"hull"``, a box as its lowest and highest corner, or a convex polygon or polyhedron as
+        its corners, in any order: 3 or more rows. The other attributes are those of the diagram that is not clipped.
+        Points in a plane or on a line have polygons or segments as cells, unless these are clipped to a shape that has
+        an inside.
 
     >>> vor = Voronoi([(0, 0), (2, 0), (0, 2), (2, 2), (1, 1)], clip=[(0, 0), (2, 2)])
     >>> vor.volumes.tolist()
@@ -95,7 +97,7 @@ class Voronoi:
         incremental: bool = False,
         qhull_options: str | None = None,
         *,
-        clip: Literal["hull"] | npt.ArrayLike | None = None,
+        clip: Clip | None = None,
         backend: Backend = "auto",
         threads: int | None = None,
         progress: Progress = None,
@@ -103,15 +105,13 @@ class Voronoi:
         """Compute the diagram of points, or of those of a triangulation."""
         if furthest_site:
             raise ValueError("there is no furthest-site diagram: use scipy.spatial.Voronoi")
-        if clip is not None and not isinstance(clip, str):
-            clip = np.asarray(clip, np.float64).tolist()
         if isinstance(points, Delaunay):
             tri = points
         else:
             tri = Delaunay(points, backend=backend, threads=threads, progress=progress)
         has_empty_region = qhull_options is None or "Qz" in qhull_options
         self._closed = False
-        self._diagram = Diagram(tri, has_empty_region, clip)
+        self._diagram = Diagram(tri, has_empty_region, as_clip(clip, tri.ndim))
 
     def __repr__(self) -> str:
         """Return a short description."""

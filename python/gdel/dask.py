@@ -172,6 +172,8 @@ class Tiles:
         if isinstance(clip, str):
             raise ValueError(f"clip must be a box or None, not {clip!r}: no tile knows the hull of all points")
         box = None if clip is None else np.asarray(clip, np.float64)
+        if box is not None and box.shape != (2, self.ndim):
+            raise ValueError(f"clip must be two rows of {self.ndim} coordinates, not {box.shape}")
         stars = self.stars()
         # A box that is none is an error now, and not of a task.
         Voronoi(np.eye(self.ndim + 1, self.ndim), clip=box).volumes  # noqa: B018

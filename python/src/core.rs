@@ -1,7 +1,7 @@
 //! What meshes of both dimensions have in common, and a mesh with the index that finds its simplices.
 
 use gdel::{
-    Editable, Error, Locator, Mesh, Mesh2, Mesh3, Points, Triangulator,
+    Clip, Editable, Error, Locator, Mesh, Mesh2, Mesh3, Points, Transport, TransportOptions, Triangulator,
     internals::{
         derived::{AlphaEdges, StolenMeasures, SurfaceMesh, VoronoiShapes},
         geometry::Euclidean,
@@ -45,6 +45,13 @@ pub(crate) trait Core<const D: usize, const N: usize>:
     fn triangulate(triangulator: &Triangulator, points: Points<'_, D>) -> Result<Self, Error>;
     /// Triangulates weighted points.
     fn regular(triangulator: &Triangulator, points: Points<'_, D>, weights: &[f64]) -> Result<Self, Error>;
+    /// Finds the weights with which the cells of points have given volumes.
+    fn transport(
+        triangulator: &Triangulator,
+        points: Points<'_, D>,
+        clip: Clip<'_, D>,
+        options: &TransportOptions<'_>,
+    ) -> Result<Transport, Error>;
     /// Returns the points that are no vertices because of their weights.
     fn hidden(&self) -> &[u32];
     fn from_arrays(arrays: Arrays<N>) -> Self;
@@ -121,7 +128,7 @@ self_cell!(
 
 /// Implements what both meshes do in the same way.
 macro_rules! common {
-    ($D:literal, $N:literal, $located:ident, $links:ident, $triangulate:ident, $regular:ident, $measures:ident, $verify:ident) => {
+    ($D:literal, $N:literal, $located:ident, $links:ident, $triangulate:ident, $regular:ident, $transport:ident, $measures:ident, $verify:ident) => {
         type Located = $located;
 
         fn triangulate(triangulator: &Triangulator, points: Points<'_, $D>) -> Result<Self, Error> {
@@ -129,6 +136,14 @@ macro_rules! common {
         }
         fn regular(triangulator: &Triangulator, points: Points<'_, $D>, weights: &[f64]) -> Result<Self, Error> {
             triangulator.$regular(points, weights)
+        }
+        fn transport(
+            triangulator: &Triangulator,
+            points: Points<'_, $D>,
+            clip: Clip<'_, $D>,
+            options: &TransportOptions<'_>,
+        ) -> Result<Transport, Error> {
+            triangulator.$transport(points, clip, options)
         }
         fn hidden(&self) -> &[u32] {
             &self.hidden
@@ -160,7 +175,7 @@ macro_rules! common {
 }
 
 impl Core<3, 4> for Mesh3 {
-    common!(3, 4, Located3, neighbors, delaunay3d, regular3d, volumes, verify3d);
+    common!(3, 4, Located3, neighbors, delaunay3d, regular3d, transport3d, volumes, verify3d);
 
     fn from_arrays(arrays: Arrays<4>) -> Self {
         let mut mesh = Mesh3::default();
@@ -182,7 +197,7 @@ impl Core<3, 4> for Mesh3 {
 }
 
 impl Core<2, 3> for Mesh2 {
-    common!(2, 3, Located2, halfedges, delaunay2d, regular2d, areas, verify2d);
+    common!(2, 3, Located2, halfedges, delaunay2d, regular2d, transport2d, areas, verify2d);
 
     fn from_arrays(arrays: Arrays<3>) -> Self {
         let mut mesh = Mesh2::default();

@@ -13,6 +13,7 @@ mod errors;
 mod mesh;
 mod queries;
 mod tiles;
+mod transport;
 mod tree;
 mod voronoi;
 
@@ -54,6 +55,7 @@ fn gdel_module(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(mesh::triangulate, module)?)?;
     module.add_function(wrap_pyfunction!(constrained::constrain, module)?)?;
     module.add_function(wrap_pyfunction!(constrained::tin, module)?)?;
+    module.add_function(wrap_pyfunction!(transport::transport, module)?)?;
     for function in [
         wrap_pyfunction!(tiles::tiles_survey, module)?,
         wrap_pyfunction!(tiles::tiles_plan, module)?,

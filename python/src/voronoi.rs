@@ -6,14 +6,55 @@ use crate::{
     core::{Core, Data, Derives},
 };
 use gdel::{
-    Clip, Diagram, NONE, Voronoi,
+    Clip, Diagram, NONE, Points, Voronoi,
     internals::{derived::DisjointSets, geometry::Euclidean},
 };
 use numpy::IntoPyArray;
 use pyo3::{exceptions::PyValueError, prelude::*, types::PyDict};
 use std::collections::HashMap;
 
-/// Returns the diagram, clipped to nothing (`None`), `"hull"` or a box (the lowest and the highest corner).
+/// What cells are clipped to, as the package passes it: nothing (`None`), `"box"`, `"hull"`, a box as its lowest and its
+/// highest corner, or the corners of a convex shape.
+pub(crate) enum Shape<const D: usize> {
+    None,
+    Box,
+    Hull,
+    /// A box that is given.
+    Bounds([[f64; D]; 2]),
+    Corners(Vec<[f64; D]>),
+}
+
+impl<const D: usize> Shape<D> {
+    /// Reads the argument.
+    pub(crate) fn new(clip: &Bound<'_, PyAny>) -> PyResult<Self> {
+        if clip.is_none() {
+            return Ok(Shape::None);
+        }
+        if let Ok(name) = clip.extract::<String>() {
+            return match name.as_str() {
+                "box" => Ok(Shape::Box),
+                "hull" => Ok(Shape::Hull),
+                _ => Err(PyValueError::new_err(format!("clip must be 'box', 'hull' or corners, not {name:?}"))),
+            };
+        }
+        let corners: Vec<[f64; D]> = Input::new(clip)?.points::<D>()?.iter().collect();
+        Ok(<[[f64; D]; 2]>::try_from(corners).map_or_else(Shape::Corners, Shape::Bounds))
+    }
+
+    /// Returns what the cells of points are clipped to.
+    pub(crate) fn clip(&self, points: Points<'_, D>) -> Clip<'_, D> {
+        match self {
+            Shape::None => Clip::None,
+            // No points have no box, and an empty hull.
+            Shape::Box => points.bounds().map_or(Clip::Hull, Clip::Box),
+            Shape::Hull => Clip::Hull,
+            Shape::Bounds(bounds) => Clip::Box(*bounds),
+            Shape::Corners(corners) => Clip::Convex(corners),
+        }
+    }
+}
+
+/// Returns the diagram, clipped to a shape.
 pub(crate) fn diagram<'py, M: Core<D, N>, const D: usize, const N: usize>(
     data: &Data<M, D, N>,
     py: Python<'py>,
@@ -25,16 +66,8 @@ where
     Euclidean: Derives<D, N>,
 {
     let points = input.points::<D>()?;
-    let clip = if clip.is_none() {
-        Clip::None
-    } else if let Ok(name) = clip.extract::<String>() {
-        match name.as_str() {
-            "hull" => Clip::Hull,
-            _ => return Err(PyValueError::new_err(format!("clip must be None, 'hull' or a box, not {name:?}"))),
-        }
-    } else {
-        Clip::Box(clip.extract::<[[f64; D]; 2]>()?)
-    };
+    let shape = Shape::new(clip)?;
+    let clip = shape.clip(points);
     let found = compute::run(py, threads, || Ok(Voronoi::new(&*data.mesh, points, clip)?.diagram()))?;
     let result = PyDict::new(py);
     result.set_item("vertices", arrays::rows(py, found.vertices)?)?;

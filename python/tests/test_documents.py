@@ -31,7 +31,8 @@ def test_blocks_run(page, tmp_path, monkeypatch):
         exec(compile(block, page, "exec"), names)
 
 
-MODULES = ["", "._constrained", "._delaunay", "._voronoi", "._interpolate", "._derived", ".dask", ".scipy"]
+PARTS = ["constrained", "delaunay", "voronoi", "interpolate", "derived", "transport"]
+MODULES = ["", *(f"._{part}" for part in PARTS), ".dask", ".scipy"]
 
 
 @pytest.mark.parametrize("module", MODULES)

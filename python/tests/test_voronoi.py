@@ -58,9 +58,35 @@ def test_clipping():
     assert len(neighbors) == len(areas) == indptr[-1]
     assert np.isinf(gdel.Voronoi(tri).volumes).any()
     with pytest.raises(ValueError, match="clip"):
-        gdel.Voronoi(tri, clip="box").volumes  # noqa: B018
+        gdel.Voronoi(tri, clip="circle").volumes  # noqa: B018
+    low, high = points.min(axis=0), points.max(axis=0)
+    by_name, by_corners = (gdel.Voronoi(tri, clip=clip).volumes for clip in ("box", [low, high]))
+    assert np.array_equal(by_name, by_corners)
+    for bad in ([(0, 0)], [(0, 0, 0), (1, 1, 1)], [0, 1]):
+        with pytest.raises(ValueError, match="row of 2 coordinates"):
+            gdel.Voronoi(tri, clip=bad)
     with pytest.raises(ValueError, match="box"):
         gdel.Voronoi(tri, clip=[(0, 0), (0, 1)]).volumes  # noqa: B018
+
+
+def test_convex_shapes():
+    points = np.random.default_rng(1).random((200, 2))
+    hexagon = 0.5 + 0.7 * np.column_stack([np.cos(np.arange(6) * np.pi / 3), np.sin(np.arange(6) * np.pi / 3)])
+    area = 1.5 * np.sqrt(3) * 0.7**2
+    vor = gdel.Voronoi(points, clip=np.random.default_rng(2).permutation(hexagon))
+    assert vor.volumes.sum() == pytest.approx(area)
+    corners = [corner for polygon in vor.polygons() for corner in polygon.tolist()]
+    assert all(np.linalg.norm(corners - corner, axis=1).min() < 1e-12 for corner in hexagon)
+    # The shape is not what the caller makes of the array afterwards.
+    changing = hexagon.copy()
+    vor = gdel.Voronoi(points, clip=changing)
+    changing[:] = 0
+    assert vor.volumes.sum() == pytest.approx(area)
+    tetrahedron = [(0, 0, 0), (3, 0, 0), (0, 3, 0), (0, 0, 3)]
+    vor = gdel.Voronoi(np.random.default_rng(3).random((50, 3)), clip=tetrahedron)
+    assert vor.volumes.sum() == pytest.approx(4.5)
+    with pytest.raises(ValueError, match="corners"):
+        gdel.Voronoi(points, clip=[*hexagon, (0.5, 0.5)]).volumes  # noqa: B018
 
 
 def test_points_come():

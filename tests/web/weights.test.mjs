@@ -98,6 +98,40 @@ for (const [key, { triangulate, generate, verify, arrays }] of Object.entries(DI
     assert.ok(mesh.hidden.every((i) => vertexSimplex[i] === -1));
   });
 
+  test(`${D}D: files have the weights, and which points are hidden`, async () => {
+    const points = await generate('uniform', 100, { seed: 15 });
+    const random = randomFrom(16);
+    const weights = Float64Array.from({ length: 100 }, () => 0.05 * random());
+    const mesh = await triangulate(points, { weights });
+    assert.ok(mesh.hidden.length > 0);
+    const text = (bytes) => Buffer.from(bytes).toString('latin1');
+    const filesOf = async (mesh) => {
+      const { node } = await (D === 3 ? mesh.toTetGen() : mesh.toTriangle());
+      return [text(node), text(await mesh.toVTU()), text(await mesh.toNPZ())];
+    };
+    const [node, vtu, npz] = await filesOf(mesh);
+    const rows = node.split('\n');
+    assert.match(rows[0], /^100 [23] 1 0 # index x y( z)? weight$/);
+    const written = rows.slice(1, 101).map((row) => Number(row.split(' ').at(-1)));
+    assert.deepEqual(written, [...weights]);
+    assert.match(
+      vtu,
+      /<PointData>.*"Float64" Name="weight".*"UInt8" Name="hidden".*<\/PointData>/s,
+    );
+    // Each array after its length.
+    const data = vtu.slice(vtu.indexOf('_', vtu.indexOf('<AppendedData')) + 1);
+    const flags = Array.from(data.slice(16 + 800, 16 + 900), (flag) => flag.charCodeAt(0));
+    assert.deepEqual(
+      flags.flatMap((flag, i) => (flag ? [i] : [])),
+      [...mesh.hidden],
+    );
+    assert.match(npz, /weight\.npy.*'<f8'.*\(100,\).*hidden\.npy.*'<u4'/s);
+    assert.ok(npz.includes(text(new Uint8Array(mesh.hidden.slice().buffer))));
+    for (const file of await filesOf(await triangulate(points))) {
+      assert.doesNotMatch(file, /weight|hidden/);
+    }
+  });
+
   test(`${D}D: weights that change`, async () => {
     const points = await generate('uniform', 500, { seed: 13 });
     const random = randomFrom(14);

@@ -21,7 +21,7 @@ import { GdelError } from './errors.js';
 import type { TriangleFormat } from './files.js';
 import type { Done } from './protocol.js';
 import type { Update } from './run.js';
-import { write } from './tools.js';
+import { weighted, write } from './tools.js';
 import type { Output, Points, TaskOptions, Trace } from './types.js';
 
 /** Where points are in a 3D mesh. */
@@ -150,19 +150,25 @@ export class Mesh3 extends Mesh {
 
   /**
    * Returns the tetrahedra as VTK's XML unstructured grid (`.vtu`), which ParaView and PyVista
-   * read.
+   * read. Weighted points have the data `weight` and `hidden`.
    */
   async toVTU(options?: TaskOptions): Promise<Bytes> {
     return (await this.#files('vtu', [], options)).vtu!;
   }
 
-  /** Returns TetGen's three files: points, tetrahedra and neighbors, counted from 0. */
+  /**
+   * Returns TetGen's three files: points, with weights if they have any, tetrahedra and neighbors,
+   * counted from 0.
+   */
   async toTetGen(options?: TaskOptions): Promise<{ node: Bytes; ele: Bytes; neigh: Bytes }> {
     const { node, ele, neigh } = await this.#files('tetgen', ['neighbors'], options);
     return { node: node!, ele: ele!, neigh: neigh! };
   }
 
-  /** Returns NumPy's `.npz` with the arrays `points`, `tetrahedra` and `neighbors`. */
+  /**
+   * Returns NumPy's `.npz` with the arrays `points`, `tetrahedra` and `neighbors`, for weighted
+   * points also `weight` and `hidden`.
+   */
   async toNPZ(options?: TaskOptions): Promise<Bytes> {
     return (await this.#files('npz', ['neighbors'], options)).npz!;
   }
@@ -201,6 +207,7 @@ export class Mesh3 extends Mesh {
       tetrahedra: hull ? new Uint32Array(0) : this.tetrahedra,
       hull,
       neighbors: needs.includes('neighbors') ? this.neighbors : undefined,
+      ...(hull ? {} : weighted(this)),
     };
     return write('write', { points: this.points, mesh, format }, options);
   }

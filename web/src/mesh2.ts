@@ -19,7 +19,7 @@ import { findNearest, Rings } from './plane.js';
 import type { Done } from './protocol.js';
 import { loadCode } from './runtime.js';
 import { runShared } from './shared.js';
-import { write } from './tools.js';
+import { weighted, write } from './tools.js';
 import type { Points, TaskOptions } from './types.js';
 import { Voronoi2 } from './voronoi2.js';
 import { checkDelaunay, checkUnconstrained } from './weights.js';
@@ -200,21 +200,25 @@ export class Mesh2 extends Mesh {
 
   /**
    * Returns the triangles as VTK's XML unstructured grid (`.vtu`), which ParaView and PyVista read.
+   * Weighted points have the data `weight` and `hidden`.
    */
   async toVTU(options?: TaskOptions): Promise<Bytes> {
     return (await this.#files('vtu', options)).vtu!;
   }
 
   /**
-   * Returns the three files of the program Triangle: points, triangles and neighbors, counted from
-   * 0.
+   * Returns the three files of the program Triangle: points, with weights if they have any,
+   * triangles and neighbors, counted from 0.
    */
   async toTriangle(options?: TaskOptions): Promise<{ node: Bytes; ele: Bytes; neigh: Bytes }> {
     const { node, ele, neigh } = await this.#files('triangle', options);
     return { node: node!, ele: ele!, neigh: neigh! };
   }
 
-  /** Returns NumPy's `.npz` with the arrays `points`, `triangles` and `halfedges`. */
+  /**
+   * Returns NumPy's `.npz` with the arrays `points`, `triangles` and `halfedges`, for weighted
+   * points also `weight` and `hidden`.
+   */
   async toNPZ(options?: TaskOptions): Promise<Bytes> {
     return (await this.#files('npz', options)).npz!;
   }
@@ -244,7 +248,7 @@ export class Mesh2 extends Mesh {
 
   #files(format: string, options: TaskOptions | undefined): Promise<Record<string, Bytes>> {
     const { coords: points, triangles, halfedges, constraints } = this;
-    const mesh = { triangles, halfedges, inside: constraints?.inside };
+    const mesh = { triangles, halfedges, inside: constraints?.inside, ...weighted(this) };
     return write('write2d', { points, mesh, format }, options);
   }
 }

@@ -247,6 +247,10 @@ function dimensionOf(dimension: unknown): number | undefined {
   return dimension as number | undefined;
 }
 
+/** Returns what files hold of the weights of points, if they have any. */
+export const weighted = ({ weights, hidden }: Pick<MeshView, 'weights' | 'hidden'>) =>
+  weights ? { weights, hidden } : {};
+
 /** Returns a mesh as files of a format, by extension. */
 export async function write<T extends 'write' | 'write2d'>(
   task: T,

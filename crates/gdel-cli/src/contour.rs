@@ -19,8 +19,8 @@ use std::{io, path::Path};
 pub(super) struct Arguments {
     #[command(flatten)]
     common: Common,
-    /// The column of the points' file with the values: its name in the first line, or its number,
-    /// counted from 1. The file must be text or CSV
+    /// The column of the points' file with the values, by its name or its number, counted from 1. The file must be text,
+    /// CSV, .ply, .node, .npz or .vtu
     #[arg(long, value_name = "COLUMN")]
     values: String,
     /// The levels

@@ -33,8 +33,8 @@ pub(super) struct Arguments {
     /// [default: the smallest box that contains all points]
     #[arg(long, value_name = "NUMBERS", value_delimiter = ',', allow_hyphen_values = true, requires = "grid")]
     bounds: Vec<f64>,
-    /// The column of the points' file with the values: its name in the first line, or its number,
-    /// counted from 1. The file must be text or CSV
+    /// The column of the points' file with the values, by its name or its number, counted from 1. The file must be text,
+    /// CSV, .ply, .node, .npz or .vtu
     #[arg(long, value_name = "COLUMN")]
     values: String,
     /// Take points and queries as longitude and latitude in degrees; `linear` is the method

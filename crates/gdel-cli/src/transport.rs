@@ -18,8 +18,8 @@ use gdel_io::{CellShape, Column, Grid, Table, files::ResultOutput};
 pub(super) struct Arguments {
     #[command(flatten)]
     common: Common,
-    /// The column of the input that holds the masses, which the volumes of the cells are to be, by its name in the first
-    /// line or its number, counted from 1. The input must be text or CSV. By default all cells are to be equally large
+    /// The column of the input that holds the masses, which the volumes of the cells are to be, by its name or its number,
+    /// counted from 1. The input must be text, CSV, .ply, .node, .npz or .vtu. By default all cells are to be equally large
     #[arg(long, value_name = "COLUMN")]
     masses: Option<String>,
     /// Multiply the masses so that their sum is the volume of what the cells are clipped to
@@ -34,8 +34,8 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "SHAPE", default_value = "box", value_parser = ClipShape::parse)]
     #[arg(allow_hyphen_values = true)]
     clip: ClipShape,
-    /// Where to write the points with their weights, and the volumes of their cells: as .csv, whose column `weight`
-    /// `gdel voronoi --weights weight` reads, .npz or .vtu
+    /// Where to write the points with their weights, and the volumes of their cells: as .csv or .npz, whose column `weight`
+    /// `gdel voronoi --weights weight` reads, or .vtu
     #[arg(short, long = "output", value_name = "FILE", value_parser = parse_output)]
     output: ResultOutput<GridFormat>,
 }

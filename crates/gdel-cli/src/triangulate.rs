@@ -41,14 +41,14 @@ use std::{
 #[derive(Args)]
 pub(super) struct Arguments {
     /// The points: .ply, .obj, .stl, .off, .xyz, .txt, .asc, .pts, .csv, .tsv, .ptx, .pcd, .las, .laz,
-    /// .e57, .npy, .node, .f32 or .f64; or shapes: .geojson or .json, .svg, or .poly of the program Triangle; or `-` for
-    /// standard input, with `--format`
+    /// .e57, .npy, .node, .f32 or .f64, or those of .npz and .vtu files; or shapes: .geojson or .json, .svg, or .poly of
+    /// the program Triangle; or `-` for standard input, with `--format`
     input: PathBuf,
     /// More files with points, which follow those of the first one. Need --tiles
     #[arg(value_name = "INPUT", requires = "tiles")]
     more: Vec<PathBuf>,
     /// Where to write: the mesh as .node, .ele and .neigh (TetGen, always all three), .vtu, .npz, .msh (Gmsh) or, with
-    /// segments, .poly (Triangle);
+    /// segments, .poly (Triangle); of these, .node, .vtu and .npz have the weights of points that have any;
     /// its hull as .ply, .obj, .stl, .glb or .3mf, for points in a plane their polygon from both sides; may
     /// be given several times
     #[arg(short, long = "output", value_name = "OUTPUT", value_parser = parse_output)]

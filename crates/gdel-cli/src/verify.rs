@@ -22,7 +22,8 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// Prove that a mesh is the Delaunay triangulation of its points, or say what is wrong with it.
+/// Prove that a mesh is the Delaunay triangulation of its points, or the regular one if its file has weights, or say what
+/// is wrong with it.
 #[derive(Args)]
 #[command(allow_missing_positional = true)]
 pub(super) struct Arguments {

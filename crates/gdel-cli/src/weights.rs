@@ -9,7 +9,8 @@ use gdel_io::{PointCloud, files::Input};
 #[derive(Args)]
 pub(super) struct Weights {
     /// Compute the regular triangulation of points with weights: the column of the input that holds these, by its name
-    /// in the first line or its number, counted from 1. The input must be text or CSV
+    /// or its number, counted from 1. In text and CSV, the first line has the names; in .ply the properties of vertices
+    /// are columns, in .node those of each line, named by `triangulate`, in .npz arrays, and in .vtu the data of points
     #[arg(long, value_name = "COLUMN", conflicts_with = "radii")]
     weights: Option<String>,
     /// The same with the squares of a column of radii for weights

@@ -2,7 +2,7 @@
 
 use crate::{
     FormatError, Mesh, MeshData, MeshFormat, PointCloud, PointFormat, Position, ShapeFormat, Shapes, poly, printable,
-    tetgen,
+    tetgen, vtu,
 };
 use gdel::Points;
 use std::{
@@ -11,6 +11,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
+mod archives;
 mod output;
 mod pieces;
 mod temporary;
@@ -110,7 +111,26 @@ fn read(path: &Path) -> Result<Vec<u8>, FileError> {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Input {
     path: PathBuf,
-    format: PointFormat,
+    format: InputFormat,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum InputFormat {
+    Points(PointFormat),
+    /// The arrays of a mesh, or of a table, which hold points.
+    Npz,
+    Vtu,
+}
+
+impl InputFormat {
+    fn from_extension(extension: &str) -> Option<Self> {
+        let points = PointFormat::from_extension(extension).map(InputFormat::Points);
+        points.or_else(|| match MeshFormat::from_extension(extension)? {
+            MeshFormat::Npz => Some(InputFormat::Npz),
+            MeshFormat::Vtu => Some(InputFormat::Vtu),
+            MeshFormat::TetGen => None,
+        })
+    }
 }
 
 impl Input {
@@ -122,13 +142,13 @@ impl Input {
     /// Returns [`FileError::Extension`] or [`FileError::NoFormat`] if the format is not known.
     pub fn new(path: &Path, format: Option<PointFormat>) -> Result<Self, FileError> {
         let format = match format {
-            Some(format) => format,
+            Some(format) => InputFormat::Points(format),
             None if path == Path::new("-") => return Err(FileError::NoFormat),
             // "Is a directory" says more than that `.` is not a known extension.
-            None if path.is_dir() => PointFormat::Text,
+            None if path.is_dir() => InputFormat::Points(PointFormat::Text),
             None => {
-                let known = PointFormat::ALL.iter().flat_map(|f| f.extensions()).copied();
-                by_extension(path, "point clouds", PointFormat::from_extension, known)?
+                let known = PointFormat::ALL.iter().flat_map(|f| f.extensions()).copied().chain(["npz", "vtu"]);
+                by_extension(path, "point clouds", InputFormat::from_extension, known)?
             }
         };
         Ok(Input { path: path.into(), format })
@@ -145,18 +165,36 @@ impl Input {
     ///
     /// Returns [`FileError::Read`] or [`FileError::Format`].
     pub fn read<const D: usize>(&self) -> Result<PointCloud<D>, FileError> {
-        self.format.read(self.bytes()?).map_err(|source| FileError::Format { path: self.path.clone(), source })
+        let bytes = self.bytes()?;
+        let cloud = match self.format {
+            InputFormat::Points(format) => format.read(bytes),
+            InputFormat::Npz => archives::read_points(&bytes, None).map(|(cloud, _)| cloud),
+            InputFormat::Vtu => vtu::read_points(&bytes, None).map(|(cloud, _)| cloud),
+        };
+        cloud.map_err(|source| FileError::Format { path: self.path.clone(), source })
     }
 
     /// Reads all points, and the values in a column of the file: see
-    /// [`PointFormat::read_with_values`].
+    /// [`PointFormat::read_with_values`]. Columns of NumPy's archives are arrays, and those of VTK's grids the data of points.
     ///
     /// # Errors
     ///
     /// Returns [`FileError::Read`] or [`FileError::Format`].
     pub fn read_with_values<const D: usize>(&self, column: &str) -> Result<(PointCloud<D>, Vec<f64>), FileError> {
-        let values = self.format.read_with_values(&self.bytes()?, column);
-        values.map_err(|source| FileError::Format { path: self.path.clone(), source })
+        let bytes = self.bytes()?;
+        let found = match self.format {
+            InputFormat::Points(format) => format.read_with_values(&bytes, column),
+            InputFormat::Npz => archives::read_points(&bytes, Some(column)),
+            InputFormat::Vtu => vtu::read_points(&bytes, Some(column)),
+        };
+        let one_per_point = found.and_then(|(cloud, values)| match Points::from(&cloud).len() {
+            points if points == values.len() => Ok((cloud, values)),
+            points => {
+                let what = format!("there are {} values of {} for {points} points", values.len(), printable(column));
+                Err(FormatError { at: Position::Byte(0), what })
+            }
+        });
+        one_per_point.map_err(|source| FileError::Format { path: self.path.clone(), source })
     }
 
     fn bytes(&self) -> Result<Vec<u8>, FileError> {
@@ -234,8 +272,10 @@ pub fn read_mesh<M: Mesh<D, N>, const D: usize, const N: usize>(path: &Path) -> 
             mesh.neighbors = Some(neighbors.map_err(|source| in_file(&neigh, source))?);
         }
         if node.exists() {
-            let cloud = tetgen::read_node(&read(&node)?).map_err(|source| in_file(&node, source))?;
-            mesh.points = Some(cloud.points);
+            let bytes = read(&node)?;
+            let in_node = |source| in_file(&node, source);
+            mesh.points = Some(tetgen::read_node(&bytes).map_err(in_node)?.points);
+            mesh.weights = tetgen::read_weights(&bytes).map_err(in_node)?;
         }
     }
     Ok(mesh)

@@ -163,12 +163,12 @@ impl PointFormat {
         }
     }
 
-    /// Reads a whole text or CSV file, and the values in its column with a name or a number,
-    /// counted from 1: one per point.
+    /// Reads a whole text, CSV, PLY or `.node` file, and the values in its column with a name or a number,
+    /// counted from 1: one per point. Columns of PLY are the properties of vertices.
     ///
     /// # Errors
     ///
-    /// Returns where the file is broken, and how; other formats have no values, which is an error,
+    /// Returns where the file is broken, and how; values of other formats are not read, which is an error,
     /// too.
     pub fn read_with_values<const D: usize>(
         self,
@@ -178,7 +178,11 @@ impl PointFormat {
         match self {
             PointFormat::Text => text::read_with_values(bytes, Some(column)),
             PointFormat::Csv => text::read_csv_with_values(bytes, Some(column)),
-            _ => Err(FormatError::byte(0, "values are read from text and CSV files only")),
+            PointFormat::Ply => {
+                ply::read_with_values(bytes, Some(column)).map(|(cloud, values)| (cloud.resize(), values))
+            }
+            PointFormat::Node => tetgen::read_node_with_values(bytes, column),
+            _ => Err(FormatError::byte(0, "values are read from text, CSV, PLY, .node, .npz and .vtu files only")),
         }
     }
 

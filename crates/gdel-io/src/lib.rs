@@ -57,6 +57,6 @@ pub use raster::Raster;
 pub use shapes::Shapes;
 pub use solver::{write_msh, write_poly};
 pub use table::{CellShape, Column, Grid, Table};
-pub use tetgen::{read_ele, read_neigh, write_ele, write_neigh, write_node};
+pub use tetgen::{read_ele, read_neigh, write_ele, write_neigh, write_node, write_weighted_node};
 pub use tiles::{append_links, read_tile, read_tile_vtu, write_pvtu, write_tile, write_tile_vtu};
 pub use vtu::{read_vtu, write_vtu};

@@ -4,6 +4,10 @@ use crate::PointBuf;
 use gdel::{Mesh2, Mesh3, MeshView2, MeshView3};
 use std::borrow::Cow;
 
+/// The names of the weights of points, and of those that are hidden, in files.
+pub(super) const WEIGHT: &str = "weight";
+pub(super) const HIDDEN: &str = "hidden";
+
 /// The names of the parts of a mesh, in files and messages.
 #[doc(hidden)]
 #[derive(Debug, Clone, Copy)]
@@ -33,6 +37,10 @@ pub trait Mesh<const D: usize, const N: usize>: gdel::Mesh<D, N> {
     #[doc(hidden)]
     fn surface(&self) -> Cow<'_, [[u32; 3]]>;
 
+    /// Returns the points that are no vertices because of their weights.
+    #[doc(hidden)]
+    fn hidden(&self) -> &[u32];
+
     /// Creates the data of a file from NumPy's arrays.
     #[doc(hidden)]
     fn from_arrays(simplices: Vec<[u32; N]>, adjacency: Option<Vec<[u32; N]>>) -> MeshData<D, N>;
@@ -55,8 +63,12 @@ impl Mesh<3, 4> for Mesh3 {
         Cow::Borrowed(&self.hull)
     }
 
+    fn hidden(&self) -> &[u32] {
+        &self.hidden
+    }
+
     fn from_arrays(simplices: Vec<[u32; 4]>, neighbors: Option<Vec<[u32; 4]>>) -> MeshData3 {
-        MeshData { simplices, neighbors, halfedges: None, points: None }
+        MeshData { simplices, neighbors, ..MeshData::default() }
     }
 }
 
@@ -72,8 +84,12 @@ impl Mesh<2, 3> for Mesh2 {
         Cow::Borrowed(&self.triangles)
     }
 
+    fn hidden(&self) -> &[u32] {
+        &self.hidden
+    }
+
     fn from_arrays(simplices: Vec<[u32; 3]>, halfedges: Option<Vec<[u32; 3]>>) -> MeshData2 {
-        MeshData { simplices, neighbors: None, halfedges, points: None }
+        MeshData { simplices, halfedges, ..MeshData::default() }
     }
 }
 
@@ -91,6 +107,10 @@ pub struct MeshData<const D: usize, const N: usize> {
     pub halfedges: Option<Vec<[u32; N]>>,
     /// The points that the vertices are indices of; `None` when the file does not have them.
     pub points: Option<PointBuf<D>>,
+    /// The weights of the points, whose regular triangulation the mesh is; `None` when the file does not have them.
+    pub weights: Option<Vec<f64>>,
+    /// The points that are no vertices because of their weights; `None` when the file does not say.
+    pub hidden: Option<Vec<u32>>,
 }
 
 /// A 3D mesh as a file gives it.
@@ -103,6 +123,7 @@ impl<'a> From<&'a MeshData3> for MeshView3<'a> {
     fn from(mesh: &'a MeshData3) -> Self {
         let mut view = MeshView3::of_tetrahedra(&mesh.simplices);
         view.neighbors = mesh.neighbors.as_deref();
+        (view.weights, view.hidden) = (mesh.weights.as_deref(), mesh.hidden.as_deref());
         view
     }
 }
@@ -111,6 +132,7 @@ impl<'a> From<&'a MeshData2> for MeshView2<'a> {
     fn from(mesh: &'a MeshData2) -> Self {
         let mut view = MeshView2::of_triangles(&mesh.simplices);
         (view.halfedges, view.neighbors) = (mesh.halfedges.as_deref(), mesh.neighbors.as_deref());
+        (view.weights, view.hidden) = (mesh.weights.as_deref(), mesh.hidden.as_deref());
         view
     }
 }

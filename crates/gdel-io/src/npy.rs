@@ -152,6 +152,21 @@ impl<'a> Array<'a> {
         Ok(column.rows::<_, 1, 4>(u32::from_le_bytes)?.into_flattened())
     }
 
+    /// Returns the elements of an array of shape (n,), of numbers of any type.
+    pub(super) fn numbers(&self) -> Result<Vec<f64>, FormatError> {
+        let &[count] = &self.shape[..] else {
+            return Err(FormatError::byte(
+                self.offset,
+                format!("an array of shape (n,) expected, found {:?}", self.shape),
+            ));
+        };
+        let column = Array { shape: vec![count, 1], ..*self };
+        Ok(match column.coordinates::<1>()? {
+            PointBuf::F32(rows) => rows.into_flattened().into_iter().map(f64::from).collect(),
+            PointBuf::F64(rows) => rows.into_flattened(),
+        })
+    }
+
     fn unsupported(&self, what: &str) -> FormatError {
         let what = format!("{what} of type {}{} are not supported", self.kind as char, self.size);
         FormatError::byte(self.offset, what)

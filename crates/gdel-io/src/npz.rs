@@ -3,7 +3,7 @@
 use crate::{
     FormatError, Mesh, MeshData,
     archive::{self, Archive},
-    mesh::Names,
+    mesh::{HIDDEN, Names, WEIGHT},
     npy::{self, Array},
 };
 use gdel::{NONE, Points};
@@ -32,7 +32,9 @@ pub fn read_npz<M: Mesh<D, N>, const D: usize, const N: usize>(bytes: &[u8]) -> 
     let adjacency =
         adjacency.map(|rows| rows.into_iter().map(|row| row.map(|n| if n == -1 { NONE } else { n as u32 })).collect());
     let points = read_array(&mut archive, "points", |array| array.points())?.map(|cloud| cloud.points);
-    Ok(MeshData { points, ..M::from_arrays(simplices, adjacency) })
+    let weights = read_array(&mut archive, WEIGHT, |array| array.numbers())?;
+    let hidden = if weights.is_some() { read_array(&mut archive, HIDDEN, |array| array.vector())? } else { None };
+    Ok(MeshData { points, weights, hidden, ..M::from_arrays(simplices, adjacency) })
 }
 
 /// Opens an archive.
@@ -74,7 +76,8 @@ pub(super) fn read_array<T>(
 
 /// Writes `points` (f4 or f8, n × 3) and, of a 3D mesh, `tetrahedra` (u4, m × 4) and `neighbors`
 /// (i4, m × 4), uncompressed as `numpy.savez` does; of a 2D mesh `points` (n × 2), `triangles` (m ×
-/// 3) and `halfedges` (m × 3), as [`Mesh2`](gdel::Mesh2) has them.
+/// 3) and `halfedges` (m × 3), as [`Mesh2`](gdel::Mesh2) has them. A mesh of weighted points also has `weight` (f8, n) and
+/// `hidden` (u4), the points that are no vertices because of these.
 ///
 /// # Errors
 ///
@@ -87,7 +90,12 @@ pub fn write_npz<const D: usize, const N: usize, M: Mesh<D, N>>(
     archive::write(to, |archive| {
         array(archive, "points", |to| npy::write(to, points))?;
         array(archive, M::NAMES.simplices, |to| npy::write_array(to, "<u4", mesh.simplices(), u32::to_le_bytes))?;
-        array(archive, M::NAMES.adjacency, |to| npy::write_array(to, "<i4", mesh.adjacency(), u32::to_le_bytes))
+        array(archive, M::NAMES.adjacency, |to| npy::write_array(to, "<i4", mesh.adjacency(), u32::to_le_bytes))?;
+        if mesh.weights().is_empty() {
+            return Ok(());
+        }
+        array(archive, WEIGHT, |to| npy::write_vector(to, "<f8", mesh.weights(), f64::to_le_bytes))?;
+        array(archive, HIDDEN, |to| npy::write_vector(to, "<u4", mesh.hidden(), u32::to_le_bytes))
     })
 }
 

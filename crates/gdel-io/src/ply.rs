@@ -10,7 +10,7 @@ use crate::{
     point_cloud::narrow,
     scalar::Scalar,
     surface::{MARK, Surface, padded},
-    text::{line_at, split_line},
+    text::{by_number, line_at, split_line},
 };
 use gdel::Points;
 use std::io::{self, Write};
@@ -50,6 +50,11 @@ struct Header {
 }
 
 pub(super) fn read(bytes: &[u8]) -> Result<PointCloud, FormatError> {
+    read_with_values(bytes, None).map(|(cloud, _)| cloud)
+}
+
+/// Reads the same, and the property of the vertices with a name or a number, counted from 1, if one is wanted.
+pub(super) fn read_with_values(bytes: &[u8], wanted: Option<&str>) -> Result<(PointCloud, Vec<f64>), FormatError> {
     let header = Header::parse(bytes)?;
     let mut vertices = header.elements.iter().filter(|element| element.name == b"vertex");
     let vertex = match (vertices.next(), vertices.next()) {
@@ -58,9 +63,10 @@ pub(super) fn read(bytes: &[u8]) -> Result<PointCloud, FormatError> {
         (_, Some(second)) => return Err(FormatError::line(second.line, "a second element `vertex`")),
     };
     let is_single = vertex.coordinates_are_single()?;
+    let wanted = wanted.map(|name| vertex.place_of(name)).transpose()?;
     let mut colors = vertex.colors();
     let mut data = Data { bytes, at: header.offset, encoding: header.encoding };
-    let mut points = Vec::new();
+    let (mut points, mut values) = (Vec::new(), Vec::new());
     // Elements after the vertices are read too: a file that ends in them is broken, and its user
     // should know.
     for element in &header.elements {
@@ -70,18 +76,23 @@ pub(super) fn read(bytes: &[u8]) -> Result<PointCloud, FormatError> {
         let mut sample: Sample = [f64::NAN; CHANNELS];
         for index in 0..element.count {
             let mut point = [0.0; 3];
-            for (property, role) in element.properties.iter().zip(&roles) {
+            for (place, (property, role)) in element.properties.iter().zip(&roles).enumerate() {
                 let ends = |data: &Data<'_>| data.ends(element, index);
-                match (property.kind, role) {
-                    (Kind::Number(scalar), Some(role)) => {
-                        let number = data.number(scalar)?.ok_or_else(|| ends(&data))?;
-                        match *role {
-                            Role::Axis(axis) => point[axis] = number,
-                            Role::Channel(channel) => sample[channel] = number,
-                        }
+                let scalar = match property.kind {
+                    Kind::Number(scalar) => scalar,
+                    Kind::List { count, item } => {
+                        data.skip_list(count, item)?.ok_or_else(|| ends(&data))?;
+                        continue;
                     }
-                    (Kind::Number(scalar), None) => data.number(scalar)?.map(drop).ok_or_else(|| ends(&data))?,
-                    (Kind::List { count, item }, _) => data.skip_list(count, item)?.ok_or_else(|| ends(&data))?,
+                };
+                let number = data.number(scalar)?.ok_or_else(|| ends(&data))?;
+                match *role {
+                    Some(Role::Axis(axis)) => point[axis] = number,
+                    Some(Role::Channel(channel)) => sample[channel] = number,
+                    None => {}
+                }
+                if is_vertex && wanted == Some(place) {
+                    values.push(number);
                 }
             }
             if is_vertex {
@@ -94,7 +105,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<PointCloud, FormatError> {
         let what = format!("{} goes on after all that the header promises", quote(more));
         return Err(data.error(what));
     }
-    Ok(PointCloud::new(narrow(points, is_single))?.colored(colors))
+    Ok((PointCloud::new(narrow(points, is_single))?.colored(colors), values))
 }
 
 /// The meaning of a vertex property.
@@ -217,6 +228,22 @@ impl Element {
             };
         }
         Ok(are_single)
+    }
+
+    /// Returns the place of the property of a name or a number, counted from 1, which has to be a number.
+    fn place_of(&self, name: &str) -> Result<usize, FormatError> {
+        let named = self.properties.iter().position(|property| property.name == name.as_bytes());
+        let place = match named {
+            Some(place) => place,
+            None => by_number(name, self.line)?,
+        };
+        match self.properties.get(place).map(|property| property.kind) {
+            Some(Kind::Number(_)) => Ok(place),
+            Some(Kind::List { .. }) => {
+                Err(FormatError::line(self.line, format!("the property {} is a list", quote(name.as_bytes()))))
+            }
+            None => Err(FormatError::line(self.line, format!("the vertices have no property {}", place + 1))),
+        }
     }
 
     /// Begins to gather the vertices' colours.

@@ -3,8 +3,9 @@
 use crate::{
     FormatError, Mesh, PointBuf, PointCloud,
     error::quote,
+    mesh::WEIGHT,
     surface::MARK,
-    text::{fields, lines, number},
+    text::{by_number, fields, lines, number},
 };
 use gdel::{NONE, Points};
 use std::{
@@ -17,8 +18,31 @@ use std::{
 /// # Errors
 ///
 /// Returns an error if `to` cannot be written.
-pub fn write_node<const D: usize>(mut to: impl Write, points: Points<'_, D>) -> io::Result<()> {
-    write_node_rows(&mut to, points)?;
+pub fn write_node<const D: usize>(to: impl Write, points: Points<'_, D>) -> io::Result<()> {
+    write_weighted_node(to, points, &[])
+}
+
+/// Writes the points as [`write_node`] does, each with its weight as the attribute, which TetGen's and Triangle's option
+/// `-w` take; without weights, as that does. A comment after the counts names the columns.
+///
+/// # Errors
+///
+/// Returns an error if `to` cannot be written.
+pub fn write_weighted_node<const D: usize>(
+    mut to: impl Write,
+    points: Points<'_, D>,
+    weights: &[f64],
+) -> io::Result<()> {
+    if weights.is_empty() {
+        write_node_rows(&mut to, points)?;
+        return writeln!(to, "# {MARK}");
+    }
+    writeln!(to, "{} {D} 1 0 # index {} {WEIGHT}", points.len(), ["x", "y", "z"][..D].join(" "))?;
+    for (i, (p, &weight)) in points.iter().zip(weights).enumerate() {
+        write!(to, "{i}")?;
+        p.iter().chain([&weight]).try_for_each(|&x| write!(to, " {}", Shortest(x)))?;
+        writeln!(to)?;
+    }
     writeln!(to, "# {MARK}")
 }
 
@@ -89,6 +113,43 @@ pub(super) fn read_node<const D: usize>(bytes: &[u8]) -> Result<PointCloud<D>, F
         2 => Err(FormatError::line(first_line, "2D points: they have two coordinates each")),
         other => Err(FormatError::line(first_line, format!("points of {other} coordinates"))),
     }
+}
+
+/// Reads the points of a `.node` file, and the column of a name or a number, counted from 1. It has names if those of all
+/// columns are in a comment after the counts, as [`write_weighted_node`] writes them.
+pub(super) fn read_node_with_values<const D: usize>(
+    bytes: &[u8],
+    column: &str,
+) -> Result<(PointCloud<D>, Vec<f64>), FormatError> {
+    let cloud = read_node(bytes)?;
+    let place = match place_of(bytes, column) {
+        Some(place) => place,
+        None => by_number(column, 1)?,
+    };
+    Ok((cloud, read_column(bytes, place)?))
+}
+
+/// Reads the weights of a `.node` file, if it names a column so.
+#[cfg(not(target_arch = "wasm32"))]
+pub(super) fn read_weights(bytes: &[u8]) -> Result<Option<Vec<f64>>, FormatError> {
+    place_of(bytes, WEIGHT).map(|place| read_column(bytes, place)).transpose()
+}
+
+/// Returns the place of the column with a name.
+fn place_of(bytes: &[u8], name: &str) -> Option<usize> {
+    let (first_line, _) = content(bytes).next()?;
+    let (_, counts) = lines(bytes).nth(first_line - 1)?;
+    let comment = counts.splitn(2, |&b| b == b'#').nth(1)?;
+    fields(comment).position(|word| word == name.as_bytes())
+}
+
+/// Reads a column of the rows of a `.node` file.
+fn read_column(bytes: &[u8], place: usize) -> Result<Vec<f64>, FormatError> {
+    let value = |(line, row)| {
+        let field = fields(row).nth(place);
+        number(field.ok_or_else(|| FormatError::line(line, format!("there is no column {}", place + 1)))?, line)
+    };
+    content(bytes).skip(1).map(value).collect()
 }
 
 fn read_points<const E: usize>(bytes: &[u8]) -> Result<Vec<[f64; E]>, FormatError> {

@@ -323,7 +323,7 @@ impl<'w, const D: usize> Table<'w, D> {
 }
 
 /// Returns the place of the column with a number, counted from 1.
-fn by_number(name: &str, line: usize) -> Result<usize, FormatError> {
+pub(super) fn by_number(name: &str, line: usize) -> Result<usize, FormatError> {
     let number: Option<usize> = name.parse().ok();
     number.and_then(|number| number.checked_sub(1)).ok_or_else(|| {
         let what = "name the column of the values as the first line does, or by its number, counted from 1";

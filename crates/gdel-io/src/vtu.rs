@@ -6,6 +6,7 @@
 use crate::{
     FormatError, Mesh, MeshData, PointBuf,
     error::quote,
+    mesh::{HIDDEN, WEIGHT},
     point_cloud::narrow,
     scalar::Scalar,
     surface::{MARK, padded},
@@ -23,7 +24,8 @@ use quick_xml::{
 use std::io::{self, Read, Write};
 
 /// Writes points and tetrahedra or triangles, as binary data appended to the XML, which is exact
-/// and the fastest to load. 2D points get *z* = 0.
+/// and the fastest to load. 2D points get *z* = 0. Weighted points have the data `weight` and `hidden`, which is 1 for
+/// those that are no vertices because of their weights, else 0.
 ///
 /// # Errors
 ///
@@ -50,12 +52,24 @@ pub fn write_vtu<const D: usize, const N: usize, M: Mesh<D, N>>(
     };
     let offsets = |to: &mut dyn Write| (1..=cells).try_for_each(|cell| to.write_all(&(N as u64 * cell).to_le_bytes()));
     let types = |to: &mut dyn Write| (0..cells).try_for_each(|_| to.write_all(&[M::NAMES.vtk]));
-    let arrays = [
+    let weights = |to: &mut dyn Write| mesh.weights().iter().try_for_each(|weight| to.write_all(&weight.to_le_bytes()));
+    let mut arrays = Vec::new();
+    if !mesh.weights().is_empty() {
+        let mut is_hidden = vec![0; points.len()];
+        for &i in mesh.hidden() {
+            if let Some(flag) = is_hidden.get_mut(i as usize) {
+                *flag = 1;
+            }
+        }
+        arrays.push(Array::written("PointData", WEIGHT, "Float64", 1, mesh.weights().len() as u64 * 8, &weights));
+        arrays.push(Array::new("PointData", HIDDEN, "UInt8", 1, is_hidden));
+    }
+    arrays.extend([
         Array::written("Points", "Points", number, 3, points.len() as u64 * 3 * size, &coordinates),
         Array::written("Cells", "connectivity", "Int64", 1, cells * N as u64 * 8, &connectivity),
         Array::written("Cells", "offsets", "Int64", 1, cells * 8, &offsets),
         Array::written("Cells", "types", "UInt8", 1, cells, &types),
-    ];
+    ]);
     write_arrays(to, points.len(), mesh.simplices().len(), &arrays)
 }
 
@@ -169,7 +183,33 @@ pub fn read_vtu<M: Mesh<D, N>, const D: usize, const N: usize>(bytes: &[u8]) -> 
         }
         Ok(points.resize())
     });
-    Ok(MeshData { points: points.transpose()?, ..M::from_arrays(simplices, None) })
+    let mut mesh = MeshData { points: points.transpose()?, ..M::from_arrays(simplices, None) };
+    // What other programs call a weight may be anything; none has both.
+    if let (Some(weights), Some(hidden)) = (file.point_data(WEIGHT), file.point_data(HIDDEN)) {
+        let is_hidden = file.numbers(hidden)?.into_iter();
+        mesh.hidden = Some((0..).zip(is_hidden).filter(|&(_, flag)| flag != 0.0).map(|(i, _)| i).collect());
+        mesh.weights = Some(file.numbers(weights)?);
+    }
+    Ok(mesh)
+}
+
+/// Reads points whatever the cells, and their data of that name, if any is wanted.
+#[cfg(not(target_arch = "wasm32"))]
+pub(super) fn read_points<const D: usize>(
+    bytes: &[u8],
+    wanted: Option<&str>,
+) -> Result<(crate::PointCloud<D>, Vec<f64>), FormatError> {
+    let file = File::parse(bytes)?;
+    let points = file.points()?.ok_or_else(|| FormatError::byte(0, "there are no points"))?;
+    let values = match wanted {
+        Some(name) => {
+            let data = file.point_data(name);
+            let what = || FormatError::byte(0, format!("the points have no data {}", quote(name.as_bytes())));
+            file.numbers(data.ok_or_else(what)?)?
+        }
+        None => Vec::new(),
+    };
+    Ok((crate::PointCloud::new(points)?.resize(), values))
 }
 
 /// Reads arrays of numbers of 32 bits.
@@ -199,6 +239,8 @@ struct DataArray<'a> {
     name: String,
     /// Whether it stands in `Points`.
     is_points: bool,
+    /// Whether it stands in `PointData`.
+    is_point_data: bool,
     scalar: String,
     format: String,
     offset: usize,
@@ -208,6 +250,23 @@ struct DataArray<'a> {
 }
 
 impl DataArray<'_> {
+    /// Returns the type of the numbers.
+    fn scalar(&self) -> Result<Scalar, FormatError> {
+        Ok(match self.scalar.as_str() {
+            "Int8" => Scalar::I8,
+            "Int16" => Scalar::I16,
+            "Int32" => Scalar::I32,
+            "Int64" => Scalar::I64,
+            "UInt8" => Scalar::U8,
+            "UInt16" => Scalar::U16,
+            "UInt32" => Scalar::U32,
+            "UInt64" => Scalar::U64,
+            "Float32" => Scalar::F32,
+            "Float64" => Scalar::F64,
+            other => return Err(self.broken(&format!("values of type {} are not read", quote(other.as_bytes())))),
+        })
+    }
+
     fn broken(&self, what: &str) -> FormatError {
         let name = if self.is_points { "Points" } else { &self.name };
         FormatError::byte(self.at, format!("data array `{name}`: {what}"))
@@ -223,7 +282,7 @@ impl<'a> File<'a> {
         let mut file =
             File { arrays: Vec::new(), big_endian: false, length_size: 4, is_compressed: false, appended: None };
         let mut xml = Reader::from_reader(bytes);
-        let (mut in_points, mut pieces) = (false, 0);
+        let (mut in_points, mut in_point_data, mut pieces) = (false, false, 0);
         loop {
             let at = position(&xml);
             let event = xml.read_event().map_err(|error| FormatError::byte(at, error.to_string()))?;
@@ -243,6 +302,7 @@ impl<'a> File<'a> {
                         };
                     }
                     "Points" => in_points = !is_empty,
+                    "PointData" => in_point_data = !is_empty,
                     "Piece" => {
                         pieces += 1;
                         if pieces > 1 {
@@ -257,6 +317,7 @@ impl<'a> File<'a> {
                         file.arrays.push(DataArray {
                             name: attribute(&tag, "Name"),
                             is_points: in_points,
+                            is_point_data: in_point_data,
                             scalar: attribute(&tag, "type"),
                             format: attribute(&tag, "format"),
                             offset,
@@ -274,6 +335,7 @@ impl<'a> File<'a> {
                     _ => {}
                 },
                 Event::End(tag) if tag.name().as_ref() == "Points" => in_points = false,
+                Event::End(tag) if tag.name().as_ref() == "PointData" => in_point_data = false,
                 Event::Eof => return Ok(file),
                 _ => {}
             }
@@ -294,14 +356,27 @@ impl<'a> File<'a> {
         values.ok_or_else(|| array.broken("not all of its values are integers"))
     }
 
+    /// Returns the array of that name with a value for each point.
+    fn point_data(&self, name: &str) -> Option<&DataArray<'a>> {
+        self.arrays.iter().find(|array| array.is_point_data && array.name == name)
+    }
+
     /// Returns the points, where the file has them.
     fn points(&self) -> Result<Option<PointBuf>, FormatError> {
         let Some(array) = self.arrays.iter().find(|array| array.is_points) else { return Ok(None) };
-        let scalar = match array.scalar.as_str() {
-            "Float32" => Scalar::F32,
-            "Float64" => Scalar::F64,
-            other => return Err(array.broken(&format!("points of type {} are not read", quote(other.as_bytes())))),
-        };
+        let scalar = array.scalar()?;
+        if scalar.is_integer() {
+            return Err(array.broken(&format!("points of type {} are not read", quote(array.scalar.as_bytes()))));
+        }
+        match self.numbers(array)?.as_chunks::<3>() {
+            (points, []) => Ok(Some(narrow(points.to_vec(), scalar.is_single()))),
+            _ => Err(array.broken("its values are not three for each point")),
+        }
+    }
+
+    /// Returns the array as numbers.
+    fn numbers(&self, array: &DataArray<'_>) -> Result<Vec<f64>, FormatError> {
+        let scalar = array.scalar()?;
         let values: Option<Vec<f64>> = match self.bytes(array)? {
             Some(bytes) => {
                 let values = bytes.chunks_exact(scalar.size());
@@ -310,11 +385,7 @@ impl<'a> File<'a> {
             }
             None => words(array.text).map(|word| scalar.parse(word)).collect(),
         };
-        let values = values.ok_or_else(|| array.broken("not all of its values are numbers"))?;
-        match values.as_chunks::<3>() {
-            (points, []) => Ok(Some(narrow(points.to_vec(), scalar.is_single()))),
-            _ => Err(array.broken("its values are not three for each point")),
-        }
+        values.ok_or_else(|| array.broken("not all of its values are numbers"))
     }
 
     /// Returns the binary data of an array; `None` where it is text.

@@ -74,7 +74,9 @@ fn readers() -> Vec<Reader> {
         let read = Box::new(move |bytes| drop(format.read::<3>(bytes)));
         readers.push(Reader { name: format!("{format:?}"), read, samples: samples.clone() });
         let read = Box::new(move |bytes| drop(format.read::<2>(bytes)));
-        readers.push(Reader { name: format!("{format:?} in 2D"), read, samples });
+        readers.push(Reader { name: format!("{format:?} in 2D"), read, samples: samples.clone() });
+        let read = Box::new(move |bytes: Vec<u8>| drop(format.read_with_values::<3>(&bytes, "4")));
+        readers.push(Reader { name: format!("{format:?} with values"), read, samples });
     }
     let samples = points.iter().filter(|(of, ..)| *of == PointFormat::E57).map(|(.., bytes)| bytes.clone()).collect();
     let read = Box::new(|mut bytes: Vec<u8>| {

@@ -110,6 +110,17 @@ impl<const N: usize, const H: usize> CallerMesh<N, H> {
             None => Ok(()),
         }
     }
+
+    /// Takes the weights, of which there are as many as points or none, and which points are hidden.
+    #[cfg(feature = "tools")]
+    pub(crate) fn take_weights(&mut self, points: usize) -> Result<(Vec<f64>, Vec<u32>), Thrown> {
+        let weights = self.weights.take().unwrap_or_default();
+        if !weights.is_empty() && weights.len() != points {
+            let message = format!("there are {} weights for {points} points", weights.len());
+            return Err(error("BAD_INPUT", &message).into());
+        }
+        Ok((weights, self.hidden.take().unwrap_or_default()))
+    }
 }
 
 #[cfg(any(feature = "edit", feature = "tools"))]

@@ -29,7 +29,7 @@ fn column(path: &Path, name: &str) -> Vec<f64> {
 
 /// An array of a NumPy archive.
 #[track_caller]
-fn array<T: npyz::Deserialize>(path: &Path, name: &str) -> Vec<T> {
+pub(crate) fn array<T: npyz::Deserialize>(path: &Path, name: &str) -> Vec<T> {
     let mut archive = zip::ZipArchive::new(fs::File::open(path).unwrap()).unwrap();
     let mut bytes = Vec::new();
     archive.by_name(&format!("{name}.npy")).unwrap().read_to_end(&mut bytes).unwrap();
@@ -664,7 +664,7 @@ fn bad_points_queries_and_values() {
         (&["interpolate", "cube.csv", "nan.f64", "--values", "value"], "nan.f64: point 1"),
         (&["interpolate", "cube.csv", "q.xyz", "--values", "heat"], "cube.csv: line 2: there is no column `heat`"),
         (&["interpolate", "word.csv", "q.xyz", "--values", "value"], "word.csv: line 2: `one` is not a number"),
-        (&["interpolate", BUNNY, "q.xyz", "--values", "1"], "values are read from text and CSV files only"),
+        (&["interpolate", "nan.f64", "q.xyz", "--values", "1"], "values are read from text, CSV, PLY, .node, .npz and"),
     ];
     for (arguments, message) in cases {
         fails(path, &[arguments, &to].concat(), message);

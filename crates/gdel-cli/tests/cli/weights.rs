@@ -1,6 +1,6 @@
 //! Commands with weights.
 
-use crate::{fails_with, folder, gdel, succeeds};
+use crate::{derived::array, fails_with, folder, gdel, succeeds};
 use std::{fs, path::Path};
 
 /// A square, its middle, and a point near a corner. Names come from the first line.
@@ -28,7 +28,9 @@ fn weights_and_radii() {
         succeeds(path, &["triangulate", "square.csv", "--dim", "2", "--weights", "w", "--verify", "-o", "m.ele"]);
     assert!(text.contains("points          6, 1 hidden"), "{text}");
     assert!(text.contains("this is the regular triangulation"), "{text}");
-    // Without the weights it is not what it should be.
+    succeeds(path, &["verify", "square.csv", "m.ele", "--dim", "2"]);
+    // Without the weights, which are in this file, it is not what it should be.
+    fs::remove_file(path.join("m.node")).unwrap();
     fails_with(gdel(path, &["verify", "square.csv", "m.ele", "--dim", "2"]), "vertices");
 }
 
@@ -121,6 +123,70 @@ fn power_diagrams() {
     assert!(String::from_utf8_lossy(&sphere.stderr).contains("cannot be used with"));
 }
 
+/// The files of a weighted mesh have its weights, and prove that it is regular; others have none.
+#[test]
+fn files_with_weights() {
+    let folder = folder();
+    let path = folder.path();
+    fs::write(path.join("square.csv"), SQUARE).unwrap();
+    let fixed = ["triangulate", "square.csv", "--dim", "2", "-fo"];
+    let cells = |input: &str, column: &str| {
+        let fixed = ["--dim", "2", "--clip", "0,0,4,4", "-fo", "cells.csv"];
+        succeeds(path, &[&["voronoi", input, "--weights", column], &fixed[..]].concat());
+        fs::read_to_string(path.join("cells.csv")).unwrap()
+    };
+    let expected = cells("square.csv", "w");
+    for file in ["m.vtu", "m.npz", "m.ele"] {
+        succeeds(path, &[&fixed[..], &[file]].concat());
+        let points = path.join(if file == "m.ele" { "m.node" } else { file });
+        let plain = fs::read(&points).unwrap();
+        assert!(!plain.windows(6).any(|window| window == b"weight" || window == b"hidden"));
+        succeeds(path, &[&fixed[..], &[file, "--weights", "w"]].concat());
+        assert!(succeeds(path, &["verify", file, "--dim", "2"]).contains("hidden               passed"));
+        assert_eq!(cells(points.file_name().unwrap().to_str().unwrap(), "weight"), expected);
+    }
+    assert_eq!(array::<f64>(&path.join("m.npz"), "weight"), [0.0, 0.0, 0.0, 9.0, 1.0, 0.25]);
+    assert_eq!(array::<u32>(&path.join("m.npz"), "hidden"), [5]);
+    let node = fs::read_to_string(path.join("m.node")).unwrap();
+    assert!(node.starts_with("6 2 1 0 # index x y weight\n0 0.0 0.0 0.0\n1 4.0 0.0 0.0\n"), "{node}");
+    assert_eq!(cells("m.node", "4"), expected);
+    // The given points have the weights of the mesh.
+    succeeds(path, &["verify", "square.csv", "m.npz", "--dim", "2"]);
+    // With these weights, another mesh is right.
+    fs::write(path.join("m.node"), node.replacen("0.0 0.0 0.0", "0.0 0.0 99.0", 1)).unwrap();
+    assert_eq!(gdel(path, &["verify", "m.ele", "--dim", "2"]).status.code(), Some(1));
+    fails_with(gdel(path, &["triangulate", "m.npz", "--dim", "2", "--weights", "w"]), "no array `w`");
+    fails_with(gdel(path, &["triangulate", "m.vtu", "--dim", "2", "--weights", "w"]), "the points have no data `w`");
+    fails_with(gdel(path, &["triangulate", "m.npz", "--dim", "2", "--weights", "hidden"]), "1 values of hidden for 6");
+}
+
+/// Weights are properties of vertices in PLY.
+#[test]
+fn weights_in_ply() {
+    let folder = folder();
+    let path = folder.path();
+    let properties = "property float x\nproperty float y\nproperty float z\nproperty double w\nproperty uchar red\n";
+    let faces = "element face 1\nproperty list uchar int vertex_indices\n";
+    let row = |line: &str| {
+        let [x, y, w] = [0, 1, 2].map(|place| line.split(',').nth(place).unwrap());
+        format!("{x} {y} 0 {w} 7\n")
+    };
+    let rows: String = SQUARE.lines().skip(1).map(row).collect();
+    let ply = format!("ply\nformat ascii 1.0\nelement vertex 6\n{properties}{faces}end_header\n{rows}3 0 1 2\n");
+    fs::write(path.join("square.ply"), ply).unwrap();
+    for column in ["w", "4"] {
+        let text = succeeds(path, &["triangulate", "square.ply", "--dim", "2", "--weights", column, "--verify"]);
+        assert!(text.contains("points          6, 1 hidden"), "{text}");
+    }
+    for (column, message) in [
+        ("mass", "line 3: there is no column `mass`"),
+        ("6", "line 3: the vertices have no property 6"),
+        ("0", "line 3: there is no column `0`"),
+    ] {
+        fails_with(gdel(path, &["triangulate", "square.ply", "--dim", "2", "--weights", column]), message);
+    }
+}
+
 #[test]
 fn the_least_power_distance() {
     let folder = folder();
@@ -160,6 +226,8 @@ fn transport() {
         succeeds(path, &[&fixed[..], &["-o", output]].concat());
         assert!(fs::read(path.join(output)).unwrap().len() > 300);
     }
+    succeeds(path, &["voronoi", "t.npz", "--dim", "2", "--weights", "weight", "--clip", "0,0,5,4", "-fo", "w.csv"]);
+    assert_eq!(read("w.csv"), read("v.csv"));
     let run = |more: &[&str]| gdel(path, &[&fixed[..3], &["2"], more, &["-fo", "t.csv"]].concat());
     fails_with(run(&["--masses", "m", "--clip", "0,0,5,5"]), "the sum of the masses is 20.0");
     assert!(run(&["--masses", "m", "--clip", "0,0,5,5", "--normalize"]).status.success());

@@ -7,7 +7,7 @@ use super::{
 use crate::{
     Mesh, MeshFormat, PointFormat, SolverFormat, SurfaceFormat,
     surface::MARK,
-    tetgen::{write_ele, write_neigh, write_node},
+    tetgen::{write_ele, write_neigh, write_weighted_node},
     write_msh, write_npz, write_poly, write_vtu,
 };
 use gdel::Points;
@@ -96,7 +96,7 @@ impl Output {
         let paths = self.paths();
         let parts: Vec<Prepared> = match (self.format, &paths[..]) {
             (OutputFormat::Mesh(MeshFormat::TetGen), [node, ele, neigh]) => vec![
-                prepare(node, |to| write_node(to, points))?,
+                prepare(node, |to| write_weighted_node(to, points, mesh.weights()))?,
                 prepare(ele, |to| write_ele(to, mesh))?,
                 prepare(neigh, |to| write_neigh(to, mesh))?,
             ],

@@ -1,6 +1,6 @@
 //! Point clouds that are read a few points at a time, since they may be larger than memory.
 
-use super::{FileError, Input, read};
+use super::{FileError, Input, InputFormat, read};
 use crate::{FormatError, PointBuf, PointCloud, PointFormat, Position, las, npy, raw};
 use std::{
     fs::File,
@@ -39,11 +39,13 @@ impl Input {
     ) -> Result<(), E> {
         let path = self.path();
         let is_file = path.metadata().is_ok_and(|data| data.is_file() && data.len() > 0);
-        if is_file && let Some((file, layout)) = layout::<D>(path, self.format)? {
-            return read_rows(path, file, &layout, most, take);
-        }
-        if is_file && self.format == PointFormat::Las {
-            return read_laz(path, most, take);
+        if is_file && let InputFormat::Points(format) = self.format {
+            if let Some((file, layout)) = layout::<D>(path, format)? {
+                return read_rows(path, file, &layout, most, take);
+            }
+            if format == PointFormat::Las {
+                return read_laz(path, most, take);
+            }
         }
         take(self.read::<D>()?.points)
     }

@@ -4,7 +4,7 @@ use crate::samples::{self, POINTS, mesh};
 use gdel::{Mesh2, Mesh3, NONE, Points};
 use gdel_io::{
     MeshData2, MeshData3, PointBuf, PointFormat, SurfaceFormat, read_ele, read_neigh, read_npz, read_vtu, write_ele,
-    write_neigh, write_node, write_npz, write_vtu,
+    write_neigh, write_node, write_npz, write_vtu, write_weighted_node,
 };
 use std::io::{Cursor, Read};
 
@@ -39,6 +39,44 @@ fn tetgen_files_that_count_from_one() {
         read_neigh::<Mesh3, _, _>(b"2 4\n1 2 -1 -1 -1\n2 -1 -1 -1 1\n"),
         Ok(vec![[1, NONE, NONE, NONE], [NONE, NONE, NONE, 0]])
     );
+}
+
+/// Weights and hidden points are read back from the formats that have them, and prove the mesh.
+#[test]
+fn weights_are_read_back() {
+    let mesh = samples::weighted_mesh();
+    assert_eq!((&mesh.weights[..], &mesh.hidden[..]), (&samples::WEIGHTS[..], &[4][..]));
+    let points = Points::from(&POINTS);
+    let vtu = written(|to| write_vtu(to, points, &mesh));
+    let npz = written(|to| write_npz(to, points, &mesh));
+    for data in [read_vtu::<Mesh3, _, _>(&vtu).unwrap(), read_npz::<Mesh3, _, _>(&npz).unwrap()] {
+        assert_eq!((&data.weights, &data.hidden), (&Some(mesh.weights.clone()), &Some(mesh.hidden.clone())));
+        assert!(gdel::verify3d(points, &data).unwrap().passed());
+        let mut other = data.clone();
+        other.hidden = Some(Vec::new());
+        assert!(!gdel::verify3d(points, &other).unwrap().passed());
+        (other.weights, other.hidden) = (None, None);
+        assert!(!gdel::verify3d(points, &other).unwrap().passed());
+    }
+    // Other programs may call anything a weight.
+    let array =
+        |name: &str| format!("<DataArray type=\"Float32\" Name=\"{name}\" format=\"ascii\">0 1 2 3 4</DataArray>");
+    let with = |element: &str, names: [&str; 2]| {
+        let data = format!("<{element}>{}</{element}><Points>", names.map(array).concat());
+        let mesh = read_vtu::<Mesh3, _, _>(samples::VTU_ASCII.replace("<Points>", &data).as_bytes()).unwrap();
+        (mesh.weights, mesh.hidden)
+    };
+    assert_eq!(with("PointData", ["weight", "marker"]), (None, None));
+    assert_eq!(with("CellData", ["weight", "hidden"]), (None, None));
+    let found = (Some(vec![0.0, 1.0, 2.0, 3.0, 4.0]), Some(vec![1, 2, 3, 4]));
+    assert_eq!(with("PointData", ["weight", "hidden"]), found);
+    let node = String::from_utf8(written(|to| write_weighted_node(to, points, &mesh.weights))).unwrap();
+    assert_eq!(node.lines().next(), Some("5 3 1 0 # index x y z weight"));
+    assert_eq!(node.lines().nth(2), Some("1 1.5 0.0 0.0 1.0"));
+    for column in ["weight", "5"] {
+        let (cloud, values) = PointFormat::Node.read_with_values::<3>(node.as_bytes(), column).unwrap();
+        assert_eq!((cloud.points, values), (PointBuf::F64(samples::points_f64()), mesh.weights.clone()));
+    }
 }
 
 fn data(simplices: Vec<[u32; 4]>, neighbors: Option<Vec<[u32; 4]>>, points: PointBuf) -> MeshData3 {

@@ -66,8 +66,20 @@ pub fn point_clouds() -> Vec<(PointFormat, &'static str, Vec<u8>)> {
     samples
 }
 
+/// Weights that hide the last of [`POINTS`].
+pub const WEIGHTS: [f64; 5] = [1.0, 1.0, 1.0, 1.0, -9.0];
+
+/// The mesh of [`POINTS`] with [`WEIGHTS`].
+pub fn weighted_mesh() -> Mesh3 {
+    gdel::Triangulator::new().regular3d(&POINTS, &WEIGHTS).expect("five points")
+}
+
 /// All samples of meshes.
 pub fn meshes() -> Vec<(MeshFormat, &'static str, Vec<u8>)> {
+    let weighted = weighted_mesh();
+    let [mut weighted_vtu, mut weighted_npz] = [const { Vec::new() }; 2];
+    write_vtu(&mut weighted_vtu, (&POINTS).into(), &weighted).expect("memory");
+    write_npz(&mut weighted_npz, (&POINTS).into(), &weighted).expect("memory");
     let mesh = mesh();
     let [mut ele, mut vtu, mut npz] = [const { Vec::new() }; 3];
     write_ele(&mut ele, &mesh).expect("memory");
@@ -79,6 +91,8 @@ pub fn meshes() -> Vec<(MeshFormat, &'static str, Vec<u8>)> {
         (MeshFormat::Vtu, "ascii", VTU_ASCII.into()),
         (MeshFormat::Vtu, "zlib", VTU_ZLIB.into()),
         (MeshFormat::Npz, "", npz),
+        (MeshFormat::Vtu, "weighted", weighted_vtu),
+        (MeshFormat::Npz, "weighted", weighted_npz),
     ]
 }
 

@@ -30,8 +30,9 @@ fn caller_mesh(mesh: &JsValue) -> Result<CallerMesh<3, 1>, Thrown> {
 pub fn write2d(points: &JsValue, mesh: &JsValue, format: &str) -> Result<JsValue, Thrown> {
     let coordinates = points_of_mesh::<2>(points)?;
     let points = coordinates.points::<2>()?;
-    let caller = caller_mesh(mesh)?;
+    let mut caller = caller_mesh(mesh)?;
     caller.check_vertices(points)?;
+    let (weights, hidden) = caller.take_weights(points.len())?;
     let inside = property::<Uint8Array>(mesh, "inside")?;
     if let Some(inside) = &inside
         && (caller.simplices.len() != inside.length() as usize || caller.neighbors.is_none())
@@ -39,6 +40,7 @@ pub fn write2d(points: &JsValue, mesh: &JsValue, format: &str) -> Result<JsValue
         return Err(error("BAD_INPUT", "inside does not have one entry per triangle").into());
     }
     let mut mesh = Mesh2::from(caller);
+    (mesh.weights, mesh.hidden) = (weights, hidden);
     if let Some(inside) = inside {
         let mut found = Constrained2::default();
         found.inside = inside.to_vec().into_iter().map(|inside| inside != 0).collect();

@@ -30,9 +30,12 @@ fn caller_mesh(mesh: &JsValue) -> Result<CallerMesh<4, 3>, Thrown> {
 pub fn write3d(points: &JsValue, mesh: &JsValue, format: &str) -> Result<JsValue, Thrown> {
     let coordinates = points_of_mesh::<3>(points)?;
     let points = coordinates.points::<3>()?;
-    let caller = caller_mesh(mesh)?;
+    let mut caller = caller_mesh(mesh)?;
     caller.check_vertices(points)?;
-    files(points, &Mesh3::from(caller), format, "tetgen")
+    let (weights, hidden) = caller.take_weights(points.len())?;
+    let mut mesh = Mesh3::from(caller);
+    (mesh.weights, mesh.hidden) = (weights, hidden);
+    files(points, &mesh, format, "tetgen")
 }
 
 /// Returns what the verifier finds.

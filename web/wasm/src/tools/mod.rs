@@ -8,8 +8,8 @@ use gdel::{
     verify::{Check, Outcome, Report},
 };
 use gdel_io::{
-    Mesh, PointBuf, PointCloud, PointFormat, ShapeFormat, SurfaceFormat, write_ele, write_neigh, write_node, write_npz,
-    write_vtu,
+    Mesh, PointBuf, PointCloud, PointFormat, ShapeFormat, SurfaceFormat, write_ele, write_neigh, write_npz, write_vtu,
+    write_weighted_node,
 };
 use js_sys::{Array, Float32Array, Float64Array, Uint8Array, Uint32Array};
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
@@ -159,7 +159,7 @@ fn files<M: Mesh<D, N>, const D: usize, const N: usize>(
         "vtu" => Ok(object([file("vtu", |to| write_vtu(to, points, mesh))?])),
         "npz" => Ok(object([file("npz", |to| write_npz(to, points, mesh))?])),
         _ if format == triple => Ok(object([
-            file("node", |to| write_node(to, points))?,
+            file("node", |to| write_weighted_node(to, points, mesh.weights()))?,
             file("ele", |to| write_ele(to, mesh))?,
             file("neigh", |to| write_neigh(to, mesh))?,
         ])),
