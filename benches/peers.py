@@ -2,6 +2,7 @@
 """Compares gdel with other programs on the same inputs, in the same run, on one core: a line of JSON per comparison.
 
     benches/peers.py triangulate [--runs N] [INPUT ...]     CGAL's Delaunay_triangulation_3
+    benches/peers.py regular [--runs N] [--points N]        CGAL's Regular_triangulation_3
     benches/peers.py answers [--runs N] [--points N]        CGAL, SciPy, kiddo and voro++
 
 All sides take turns, a fresh process each time. A row has the medians of all sides in seconds, the median of the ratios
@@ -27,6 +28,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 FOLDER = ROOT / ".cache" / "bench"
 PEERS = ROOT / "benches" / "peers"
 BENCH = ROOT / "target" / "release" / "gdel-bench"
+PROGRAM = ROOT / "target" / "release" / "gdel"
 DRAGON = ROOT / ".cache" / "dragon.ply"
 POINTS, QUERIES = FOLDER / "points.f64", FOLDER / "queries.f64"
 # The points of which Voronoi cells are made, at most, as in our program.
@@ -59,7 +61,8 @@ def report(peer, ours, theirs, **facts):
 
 
 def build_ours():
-    subprocess.run(["cargo", "build", "--release", "--package", "gdel-bench", "--locked", "--quiet"], cwd=ROOT, check=True)
+    packages = ["--package=gdel-bench", "--package=gdel-cli"]
+    subprocess.run(["cargo", "build", "--release", *packages, "--locked", "--quiet"], cwd=ROOT, check=True)
 
 
 def run(command):
@@ -148,6 +151,39 @@ def triangulate(arguments):
         )
 
 
+# The largest weights of `regular`, in squares of the mean distance: of few, half and most points are hidden.
+LARGEST = (0.4, 4.0, 10.0)
+
+
+def write_weighted(points, largest, table, raw):
+    """Writes uniform points with uniform weights, as text for our program and as numbers for CGAL."""
+    randoms = random.Random(1)
+    unit = largest * points ** (-2 / 3)
+    rows = [(*(randoms.random() for _ in range(3)), unit * randoms.random()) for _ in range(points)]
+    raw.write_bytes(array.array("d", (x for row in rows for x in row)))
+    with table.open("w", encoding="utf-8") as file:
+        file.write("x,y,z,weight\n")
+        file.writelines(f"{x!r},{y!r},{z!r},{weight!r}\n" for x, y, z, weight in rows)
+
+
+def regular(arguments):
+    cgal, table, raw = (FOLDER / name for name in ("regular", "weighted.csv", "weighted.f64"))
+    subprocess.run([*CXX, PEERS / "regular.cpp", "-o", cgal, "-lgmp", "-lmpfr"], check=True)
+    options = ["--weights=weight", "--backend=cpu", "--threads=1", "--stats=json"]
+    for largest in LARGEST:
+        write_weighted(arguments.points, largest, table, raw)
+        ours, theirs = [], []
+        for _ in range(arguments.runs):
+            [mesh], _ = run([PROGRAM, "triangulate", table, *options])
+            ours.append(mesh["seconds"]["total"])
+            [other], _ = run([cgal, raw])
+            theirs.append(other["seconds"])
+        if (arguments.points - mesh["hidden"], mesh["tetrahedra"]) != (other["vertices"], other["cells"]):
+            sys.exit(f"weights up to {largest}: gdel and CGAL disagree: {mesh}, {other}")
+        facts = {"input": "uniform", "points": arguments.points, "vertices": other["vertices"]}
+        report(f"CGAL {other['cgal']}", ours, theirs, **facts)
+
+
 # What `answers` compares: a name, our tasks, the peer, and its tasks. "gdel" is the triangulation itself.
 TASKS = [
     ("location", ["locate"], "CGAL", ["locate"]),
@@ -213,7 +249,7 @@ def answers(arguments):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     commands = parser.add_subparsers(required=True)
-    for command in (triangulate, answers):
+    for command in (triangulate, regular, answers):
         options = commands.add_parser(command.__name__)
         options.set_defaults(command=command)
         options.add_argument("--runs", type=int, default=5, help="runs of each side (default 5)")
