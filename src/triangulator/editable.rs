@@ -110,6 +110,10 @@ macro_rules! on_host {
 
             async fn update(&mut self, triangulator: &Triangulator, points: Points<'_, $D>) -> Result<(), Error> {
                 check_count(self, points.len())?;
+                if !Mesh::weights(self).is_empty() {
+                    let weights = self.weights.clone();
+                    return self.update_weights(triangulator, points, &weights);
+                }
                 check_delaunay(self)?;
                 let used = Used::of(points, &self.duplicate_of);
                 *self = from_scratch(triangulator, points, used, Restart::NotResident).await?;

@@ -13,7 +13,7 @@ use std::ops::Range;
 
 impl Triangulator {
     /// Makes `mesh` the Delaunay triangulation of `points`: those of the mesh, after they have
-    /// moved. Blocks the thread.
+    /// moved. Blocks the thread. A mesh of weighted points becomes their regular triangulation with the same weights.
     ///
     /// The mesh is that of a run from scratch, except for the order of its simplices: also where
     /// points have become equal or coplanar, have left the hull, or are no duplicates any more.
@@ -40,8 +40,8 @@ impl Triangulator {
     /// # Errors
     ///
     /// Returns the errors of [`Triangulator::delaunay3d`], and [`Error::PointCount`] if the mesh is
-    /// not one of as many points, and [`Error::WeightedMesh`] or [`Error::ConstrainedMesh`] if it is
-    /// not a Delaunay triangulation. After an error the mesh is what it was before.
+    /// not one of as many points, and [`Error::ConstrainedMesh`] if it has constraints. After an error the mesh is what it
+    /// was before.
     pub fn update<'a, const D: usize, M: Editable<D>>(
         &self,
         mesh: &mut M,
@@ -65,7 +65,7 @@ impl Triangulator {
     }
 
     /// Makes `mesh`, which is one of `points`, their [regular triangulation](Triangulator::regular3d) for other weights,
-    /// or for the first ones. Blocks the thread.
+    /// or for the first ones. The points may have moved. Blocks the thread.
     ///
     /// So far the points are triangulated from scratch, which takes as long as it did before. Points that the old
     /// weights hid come back, and with equal weights the mesh is the Delaunay triangulation again.

@@ -234,7 +234,6 @@ fn a_weighted_mesh_is_not_taken_for_a_delaunay_triangulation() {
     assert_eq!(gdel::AlphaShape2::new(&mesh, &points).err(), refused);
     assert_eq!(gdel::SpanningTree::new(&mesh, &points).err(), refused);
     let mut edited = mesh.clone();
-    assert_eq!(triangulator.update(&mut edited, &points).err(), refused);
     assert_eq!(triangulator.remove(&mut edited, &points, &[3]).err(), refused);
     assert_eq!(triangulator.insert(&mut edited, &mut points, &[[2.0, 1.0]]).err(), refused);
     assert_eq!((edited.canonical(), points.len()), (mesh.canonical(), 4));

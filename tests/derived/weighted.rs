@@ -628,7 +628,25 @@ fn check_updates<M: Weighted<D, N> + Editable<D>, const D: usize, const N: usize
         hidden.push(mesh.hidden().len());
     }
     assert!(hidden.iter().any(|&count| count > points.len() / 10) && hidden[9] == 0, "{hidden:?}");
+    // The points move as well, with their weights or with others.
+    let mut moved = points.to_vec();
+    for step in 0..4 {
+        moved.iter_mut().flatten().for_each(|x| *x += 0.01 * random.random::<f64>());
+        if step % 2 == 0 {
+            weights.iter_mut().for_each(|w| *w = 0.05 * random.random::<f64>());
+            triangulator.update_weights(&mut mesh, Points::F64(&moved), &weights).unwrap();
+        } else {
+            triangulator.update(&mut mesh, Points::F64(&moved)).unwrap();
+        }
+        let scratch = M::regular(&moved, &weights);
+        assert_eq!((canonical(&mesh), mesh.hidden()), (canonical(&scratch), scratch.hidden()), "{step}");
+        assert_eq!(mesh.weights(), weights);
+    }
     let before = canonical(&mesh);
+    moved[2][0] = f64::NAN;
+    let error = triangulator.update(&mut mesh, Points::F64(&moved)).unwrap_err();
+    assert!(matches!(error, Error::NotFinite { index: 2, .. }), "{error}");
+    assert_eq!(canonical(&mesh), before);
     weights[3] = f64::NAN;
     let error = triangulator.update_weights(&mut mesh, Points::F64(points), &weights).unwrap_err();
     assert_eq!((error, canonical(&mesh)), (Error::BadWeight { index: 3 }, before));
