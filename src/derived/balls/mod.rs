@@ -200,7 +200,8 @@ impl<const D: usize, const N: usize> BallComplex<D, N> {
     /// ```
     /// // Two balls that touch, and a third one.
     /// let points = [[0.0, 0.0], [3.0, 0.0], [0.0, 9.0f64]];
-    /// let mesh = gdel::Triangulator::new().regular2d(&points, &[4.0, 1.0, 1.0])?;
+    /// let weights = [4.0, 1.0, 1.0];
+    /// let mesh = gdel::Triangulator::new().regular2d(&points, &weights)?;
     /// let (components, count) = gdel::BallComplex::new(&mesh, &points, &weights, 0.0)?.components();
     /// assert_eq!((&components[..], count), (&[0, 0, 1][..], 2));
     /// # Ok::<(), gdel::Error>(())
