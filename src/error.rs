@@ -210,7 +210,8 @@ pub enum Error {
         /// The largest difference between a mass and a volume that was reached, as a share of the mass.
         error: String,
     },
-    /// What was asked for exists for Delaunay triangulations only, and the mesh is one of weighted points.
+    /// What was asked for exists for Delaunay triangulations only, and the mesh is one of weighted points. In place of
+    /// their alpha shape there is [`BallComplex`](crate::BallComplex).
     #[error("this is not possible with a mesh of weighted points")]
     WeightedMesh,
     /// What was asked for does not exist for meshes with constraints so far, and the mesh has some.

@@ -286,6 +286,7 @@ test('what needs a Delaunay triangulation says so', async () => {
     await rejects(mesh.interpolate(values, [1, 1], { method }), 'BAD_INPUT', needs);
   await rejects(mesh.voronoi({ clip: 'box' }), 'BAD_INPUT', needs);
   await rejects(mesh.alphaShape(), 'BAD_INPUT', needs);
+  await rejects(mesh.ballComplex(), 'BAD_INPUT', needs);
   await rejects(mesh.update(POINTS), 'BAD_INPUT', needs);
   await rejects(mesh.insert([1, 1]), 'BAD_INPUT', needs);
   await rejects(mesh.remove([0]), 'BAD_INPUT', needs);

@@ -507,6 +507,7 @@ test('bad input is a typed error that says what is wrong', async () => {
       () => tampered.interpolate(new Float64Array(9), [[0, 0, 0]]),
       () => tampered.voronoi(),
       () => tampered.alphaShape(),
+      () => tampered.ballComplex(),
       () => tampered.surface(),
       () => tampered.spanningTree(),
       () => tampered.topology(),

@@ -362,6 +362,12 @@ for (const D of [3, 2]) {
       const [shape, other] = [await mesh.alphaShape(), await expected.alphaShape()];
       assert.equal(shape.alpha, other.alpha);
       assert.deepEqual(setOf(shape.surface, D), setOf(other.surface, D));
+      const radii = new Float64Array(points.length / D).fill(0.05);
+      const [balls, same] = [
+        await mesh.ballComplex({ radii }),
+        await expected.ballComplex({ radii }),
+      ];
+      assert.deepEqual([balls.edges, balls.componentOf], [same.edges, same.componentOf]);
       const tree = await mesh.spanningTree();
       assert.deepEqual(tree.edges, (await expected.spanningTree()).edges);
       assert.equal(tree.clusters(5)[7], tree.clusters(5)[0]);

@@ -212,7 +212,7 @@ test('a plain script, without a bundler', async () => {
 test('TypeScript, strict, with both resolutions, whatever else is switched on', () => {
   const folder = project({
     'main.ts': `
-      import { createTriangulator, delaunay2dSync, delaunay3d, delaunay3dSync, GdelError, generate, load3d, type Mesh3, type Stats } from 'gdel-wasm';
+      import { type BallComplex, createTriangulator, delaunay2dSync, delaunay3d, delaunay3dSync, GdelError, generate, load3d, type Mesh3, type Stats } from 'gdel-wasm';
       import { delaunay3d as inlined } from 'gdel-wasm/inline';
       import Delaunator from 'gdel-wasm/delaunator';
       const mesh: Mesh3 = await delaunay3d(new Float32Array(3), { outputs: ['hull'], onProgress: ({ fraction }) => fraction.toFixed() });
@@ -221,6 +221,10 @@ test('TypeScript, strict, with both resolutions, whatever else is switched on', 
       postMessage(mesh.points, '*', [mesh.points.buffer, (await generate('ball', 3)).buffer]);
       await delaunay3d([0, 0, 0]);
       await delaunay3d(new Int16Array(3), { onProgress: () => {} });
+      const balls: BallComplex = await mesh.ballComplex({ alpha: 1, radii: [1], signal: new AbortController().signal });
+      const componentOf: Int32Array = balls.componentOf;
+      // @ts-expect-error: alpha is a number here
+      await mesh.ballComplex({ alpha: 'auto' });
       await load3d();
       const triangles: Uint32Array = delaunay2dSync(new Uint8Array(2)).triangles;
       const sync: Mesh3 = delaunay3dSync([{ x: 1 }], { point: ({ x }) => [x, 0, 0] });
@@ -234,7 +238,7 @@ test('TypeScript, strict, with both resolutions, whatever else is switched on', 
       const halfedges: Int32Array = Delaunator.from([[0, 0], [1, 0], [0, 1]]).halfedges;
       using triangulator = await createTriangulator({ backend: 'cpu' });
       await triangulator.delaunay3d(await generate('ball', 10, { seed: 3 }), { signal: new AbortController().signal });
-      try { await delaunay3d([]); } catch (error) { if (error instanceof GdelError && error.code === 'ABORTED') console.log(gpu, bytes, halfedges, triangles, sync); }
+      try { await delaunay3d([]); } catch (error) { if (error instanceof GdelError && error.code === 'ABORTED') console.log(gpu, bytes, componentOf, halfedges, triangles, sync); }
       // @ts-expect-error: there is no such backend
       await delaunay3d([], { backend: 'tpu' });
       // @ts-expect-error: objects need an accessor

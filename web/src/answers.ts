@@ -271,6 +271,55 @@ export interface AlphaShape {
   readonly singularVertices: Indices;
 }
 
+/** Options of `ballComplex`. */
+export interface BallOptions extends TaskOptions {
+  /** Its square is added to all weights: 0 or more, in units of the points. Default 0: the balls are what they are. */
+  alpha?: number | undefined;
+  /**
+   * One weight per point, any finite number: the square of the radius of its ball, which is none if it is
+   * negative. Default: those of the mesh. A mesh of equal weights has none, and without weights all are 0.
+   */
+  weights?: ArrayLike<number> | undefined;
+  /** One radius per point instead of `weights`, finite and not negative. */
+  radii?: ArrayLike<number> | undefined;
+}
+
+/**
+ * The alpha complex of balls. Hidden points, duplicates and removed points are no part of it. In 2D, the facets
+ * are the edges.
+ */
+export interface BallComplex {
+  /** That of the options. */
+  readonly alpha: number;
+  /** The simplices of the mesh that are part of the complex, ascending. */
+  readonly solid: Indices;
+  /**
+   * The boundary of these simplices, closed: 3 vertices per triangle, counter-clockwise as seen from outside;
+   * in 2D 2 vertices per edge, in the direction in which it runs in its triangle. For points in a plane of 3D,
+   * or on a line in 2D, the facets from both sides.
+   */
+  readonly surface: Indices;
+  /**
+   * All facets that are part of the complex: 3 vertices per triangle, counter-clockwise as seen from outside the
+   * tetrahedron with the lower index; in 2D 2 per edge, as it runs in the triangle with the lower index.
+   */
+  readonly facets: Indices;
+  /** All edges that are part of the complex: 2 vertices each, the lower one first, in ascending order. */
+  readonly edges: Indices;
+  /** All vertices that are part of the complex, ascending. */
+  readonly vertices: Indices;
+  /** The facets that belong to no simplex of the complex. */
+  readonly singularFacets: Indices;
+  /** The edges that belong to nothing larger in the complex. */
+  readonly singularEdges: Indices;
+  /** The vertices that belong to nothing larger in the complex: balls that meet no other one. */
+  readonly singularVertices: Indices;
+  /** The number of components, which is that of the union of the balls. */
+  readonly components: number;
+  /** The component of each point, in the order of their lowest points; −1 for points that are no part of the complex. */
+  readonly componentOf: Int32Array;
+}
+
 /** Options of `surface`. */
 export interface SurfaceOptions extends TaskOptions {
   /**

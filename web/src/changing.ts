@@ -4,6 +4,8 @@ import { codeEdit, moduleEdit } from '#assets';
 import type {
   AlphaOptions,
   AlphaShape,
+  BallComplex,
+  BallOptions,
   Geometry,
   GridOptions,
   Interpolated,
@@ -17,7 +19,7 @@ import type {
 import type { Doubles, Indices, SignedIndices } from './arrays.js';
 import {
   alphaShape,
-  checkAllUsed,
+  ballComplex,
   geometry,
   gradients,
   interpolate,
@@ -39,7 +41,7 @@ import { loadCode } from './runtime.js';
 import { runShared } from './shared.js';
 import type { AccessorOptions, Points, Stats, TaskOptions, UpdateOptions } from './types.js';
 import { Updating } from './updating.js';
-import { checkDelaunay, checkUnconstrained } from './weights.js';
+import { checkDelaunay } from './weights.js';
 
 /** A mesh in typed arrays, of either dimension. */
 export abstract class Mesh extends Triangles {
@@ -54,8 +56,8 @@ export abstract class Mesh extends Triangles {
   declare readonly hidden: Indices;
   /**
    * The weights of the points, or null if the mesh is a Delaunay triangulation, which it is without
-   * weights, and if all are equal. `locate`, `nearest`, `voronoi`, `topology` and `geometry` take
-   * both; what else is derived from meshes, and their changes, fail with `BAD_INPUT` with weights.
+   * weights, and if all are equal. `locate`, `nearest`, `voronoi`, `ballComplex`, `topology` and `geometry`
+   * take both; what else is derived from meshes, and their changes, fail with `BAD_INPUT` with weights.
    */
   declare readonly weights: Doubles | null;
   /** By which the coordinates were multiplied, one per axis; null without the option `rescale`. */
@@ -119,19 +121,14 @@ export abstract class Mesh extends Triangles {
   async updateWeights(weights: ArrayLike<number>, options?: TaskOptions): Promise<void> {
     await this.#updating.run(async () => {
       const source = this._source();
-      const { dimension, points, mesh, factors } = source;
-      checkUnconstrained(mesh);
-      const { extrasOf } = await loadCode(codeEdit);
-      const extras = thrown(() => extrasOf({ weights: weights ?? [] }, points, dimension));
-      const given = extras.weights!;
-      if (factors) throw bad('the weights', 'left out, since the points were rescaled', weights);
-      checkAllUsed(source);
-      const outputs = ['neighbors', 'hull', 'duplicateOf'] as const;
-      const args = { dimension, points, weights: given, outputs };
+      const { regularArgs } = await loadCode(codeEdit);
+      const args = thrown(() => regularArgs(source, weights));
       const result = await runShared(moduleEdit, 'regular', args, taskOptions(optionsOf(options)));
       const { thread, whyThread, whyInlined } = this.stats;
       const place = { thread, whyThread, whyInlined };
-      const made = { result: { ...result, points }, place, weights: result.hidden ? given : null };
+      const { points } = args;
+      const kept = result.hidden ? args.weights : null;
+      const made = { result: { ...result, points }, place, weights: kept };
       this._take(made as Done<Task>);
     });
   }
@@ -269,10 +266,35 @@ export abstract class Mesh extends Triangles {
 
   /**
    * Returns the alpha shape for a radius: the simplices whose circumspheres have this radius or less,
-   * and their boundary.
+   * and their boundary. For points with weights, there is {@link ballComplex}.
    */
   async alphaShape(options?: AlphaOptions): Promise<AlphaShape> {
     return alphaShape(this._source(), options);
+  }
+
+  /**
+   * Returns the alpha complex of balls around the points, such as the atoms of a molecule (Edelsbrunner, *Weighted
+   * alpha shapes*, 1992; *The union of balls and its dual shape*, 1995). A simplex of the mesh, or a face of one,
+   * is part of it if the balls of its vertices meet where their cells in the power diagram do: an edge for two, a
+   * triangle for three. So it has the components, the tunnels and the voids of the union of the balls.
+   *
+   * `alpha`² is added to the weights, which makes the balls larger; the complex for 0 is the *dual complex* of the
+   * union. Without weights it is that of {@link alphaShape}, but for `alpha` as it is. What is part of it is exact,
+   * also where balls touch. After `rescale`, lengths are those of the rescaled points.
+   *
+   * @example
+   *
+   * ```js
+   * const mesh = await delaunay3d(centers, { radii });
+   * const { components, edges, solid } = await mesh.ballComplex({ radii });
+   * ```
+   *
+   * @throws {@link GdelError} `BAD_INPUT` for an option, if there is not one weight or radius per point, one is not
+   * finite or a radius is negative, if the mesh has other weights or constraints, or if `outputs` lacked
+   * `'neighbors'` or `'duplicateOf'`; `OUT_OF_MEMORY`, `ABORTED`.
+   */
+  async ballComplex(options?: BallOptions): Promise<BallComplex> {
+    return ballComplex(this._source(), options);
   }
 
   /** Returns the edges, the facets, the neighbours of each vertex and a simplex of each. */

@@ -16,6 +16,7 @@ type DerivedTask =
   | 'contours'
   | 'voronoi'
   | 'alphaShape'
+  | 'ballComplex'
   | 'spanningTree'
   | 'topology'
   | 'geometry'
@@ -49,6 +50,8 @@ export function openCore(module: WebAssembly.Module): Core {
       glue.voronoi(dimension, points, mesh, clip, bounds, report),
     alphaShape: ({ dimension, points, mesh, options }, report) =>
       glue.alphaShape(dimension, points, mesh, options, report),
+    ballComplex: ({ dimension, points, mesh, weights, alpha }, report) =>
+      glue.ballComplex(dimension, points, mesh, weights, alpha, report),
     spanningTree: ({ dimension, points, mesh }, report) =>
       glue.spanningTree(dimension, points, mesh, report),
     topology: ({ dimension, points, mesh }, report) =>

@@ -16,8 +16,9 @@ import { refineArgs } from './refining.js';
 import { inWorkers, joinTiles } from './tiles.js';
 import { tinArgs } from './tin-args.js';
 import type { ConstraintOptions } from './types.js';
+import { ballArgs, regularArgs } from './weighted.js';
 
-export { extrasOf, inWorkers, refineArgs, tinArgs };
+export { ballArgs, extrasOf, inWorkers, refineArgs, regularArgs, tinArgs };
 
 /** Returns a result whose constraints have methods, which cannot be sent from a worker. */
 export const withConstraints = (result: Tasks['constrained']['result']) => ({

@@ -1,9 +1,11 @@
 // What is derived from a mesh, in a WebAssembly module of its own.
 
-import { moduleDerived, moduleSurface, moduleTransport } from '#assets';
+import { codeEdit, moduleDerived, moduleSurface, moduleTransport } from '#assets';
 import type {
   AlphaOptions,
   AlphaShape,
+  BallComplex,
+  BallOptions,
   ContourOptions,
   GridOptions,
   InterpolateOptions,
@@ -17,7 +19,7 @@ import type {
   VoronoiOptions,
 } from './answers.js';
 import { type Bytes, type Coordinates, type Doubles, type Indices, kindOf } from './arrays.js';
-import { GdelError } from './errors.js';
+import { thrown } from './errors.js';
 import { type TriangleFormat, Triangles } from './files.js';
 import {
   bad,
@@ -30,9 +32,11 @@ import {
 } from './options.js';
 import { copyOf, scaled } from './points.js';
 import type { DerivedMesh, TaskName, Tasks } from './protocol.js';
+import { loadCode } from './runtime.js';
 import { runShared } from './shared.js';
 import { write } from './tools.js';
 import type { Points, TaskOptions } from './types.js';
+import { checkAllUsed } from './weights.js';
 
 /** What derives from a mesh: the same in both dimensions. */
 export interface Source {
@@ -242,12 +246,6 @@ async function clipOf(
   return { clip: 'bounds', bounds: numbersOf('the option clip', clip, length, why) };
 }
 
-/** Checks that no point was removed. */
-export function checkAllUsed({ mesh }: Source): void {
-  if (mesh.duplicateOf.some((of, i) => of === i))
-    throw new GdelError('BAD_INPUT', 'the mesh has points that were removed: call compact first');
-}
-
 export async function transport(
   source: Source,
   options: TransportOptions | undefined,
@@ -256,7 +254,7 @@ export async function transport(
   checkBoolean('normalize', normalize);
   if (!(typeof tolerance === 'number' && tolerance > 0 && tolerance < 1))
     throw bad('the option tolerance', 'a number between 0 and 1', tolerance);
-  checkAllUsed(source);
+  checkAllUsed(source.mesh);
   const task = taskOptions(optionsOf(options));
   const { dimension, points } = source;
   const count = points.length / dimension;
@@ -288,6 +286,15 @@ export async function alphaShape(
   checkBoolean('singular', singular);
   const args = { options: { alpha, components, criticalValues, singular } };
   return run('alphaShape', source, args, taskOptions(optionsOf(options)));
+}
+
+export async function ballComplex(
+  source: Source,
+  options: BallOptions | undefined,
+): Promise<BallComplex> {
+  const { ballArgs } = await loadCode(codeEdit);
+  const args = thrown(() => ballArgs(source, options));
+  return run('ballComplex', source, args, taskOptions(optionsOf(options)));
 }
 
 export interface Surface3 extends SurfaceArrays {}

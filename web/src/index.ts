@@ -9,6 +9,8 @@
 export type {
   AlphaOptions,
   AlphaShape,
+  BallComplex,
+  BallOptions,
   Bounds,
   Contour2,
   Contour3,

@@ -3,6 +3,7 @@
 import type {
   AlphaOptions,
   AlphaShape,
+  BallComplex,
   Contour2,
   Contour3,
   Geometry,
@@ -62,7 +63,8 @@ export interface DerivedMesh {
   constraints?: Pick<ConstrainedArrays, 'edges'> | undefined;
 }
 
-interface DerivedArgs {
+/** What everything that is derived from a mesh needs. */
+export interface DerivedArgs {
   dimension: 2 | 3;
   points: Coordinates;
   mesh: DerivedMesh;
@@ -331,6 +333,7 @@ export interface Tasks {
     args: DerivedArgs & { options: AlphaOptions };
     result: AlphaShape;
   };
+  ballComplex: { args: DerivedArgs & { alpha: number; weights: Doubles }; result: BallComplex };
   surface: {
     args: DerivedArgs & { options: SurfaceOptions };
     result: SurfaceArrays & { triangles: Indices; edges: Indices };

@@ -47,6 +47,7 @@ type Answer =
   | 'contours'
   | 'voronoi'
   | 'alphaShape'
+  | 'ballComplex'
   | 'surface'
   | 'spanningTree'
   | 'transport';
@@ -225,6 +226,11 @@ export class ResidentMesh<Arrays, Mesh extends Mesh2 | Mesh3> {
   /** Does the same as {@link Mesh3.alphaShape}. */
   alphaShape(...args: Parameters<Mesh['alphaShape']>) {
     return this.#ask('alphaShape', args);
+  }
+
+  /** Does the same as {@link Mesh3.ballComplex}. */
+  ballComplex(...args: Parameters<Mesh['ballComplex']>) {
+    return this.#ask('ballComplex', args);
   }
 
   /** Does the same as {@link Mesh3.surface} or {@link Mesh2.surface}. */

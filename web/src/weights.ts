@@ -43,6 +43,12 @@ export function checkUnconstrained({
     throw new GdelError('BAD_INPUT', 'this is not possible with a mesh that has constraints');
 }
 
+/** Checks that no point was removed. */
+export function checkAllUsed({ duplicateOf }: { duplicateOf: Int32Array }): void {
+  if (duplicateOf.some((of, i) => of === i))
+    throw new GdelError('BAD_INPUT', 'the mesh has points that were removed: call compact first');
+}
+
 /** Checks that a mesh is a Delaunay triangulation, as its changes need. */
 export function checkDelaunay(mesh: {
   weights: Doubles | null;

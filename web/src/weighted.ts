@@ -1,0 +1,32 @@
+// The arguments of tasks with weights. A part of the code that is loaded when it is needed.
+
+import type { BallOptions } from './answers.js';
+import type { Doubles } from './arrays.js';
+import { bad, optionsOf } from './options.js';
+import type { DerivedArgs, Tasks } from './protocol.js';
+import { checkAllUsed, checkUnconstrained, weightsOf } from './weights.js';
+
+/** Returns the task to triangulate the points of a mesh with other weights. */
+export function regularArgs(
+  { dimension, points, mesh, factors }: DerivedArgs & { factors: readonly number[] | null },
+  weights: unknown,
+): Tasks['regular']['args'] {
+  checkUnconstrained(mesh);
+  const given = weightsOf({ weights: weights ?? [] }, points.length / dimension)!;
+  if (factors) throw bad('the weights', 'left out, since the points were rescaled', weights);
+  checkAllUsed(mesh);
+  const outputs = ['neighbors', 'hull', 'duplicateOf'] as const;
+  return { dimension, points, weights: given, outputs };
+}
+
+/** Returns what the complex of the balls around the points of a mesh needs beside these. */
+export function ballArgs(
+  { dimension, points, mesh }: DerivedArgs,
+  options: BallOptions | undefined,
+): { alpha: number; weights: Doubles } {
+  const { alpha = 0, weights, radii } = optionsOf(options);
+  if (!(typeof alpha === 'number' && alpha >= 0))
+    throw bad('the option alpha', 'a number that is not negative', alpha);
+  const given = weightsOf({ weights, radii }, points.length / dimension);
+  return { alpha, weights: given ?? mesh.weights ?? new Float64Array(0) };
+}
