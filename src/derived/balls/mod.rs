@@ -38,17 +38,15 @@ use std::borrow::Cow;
 /// # Examples
 ///
 /// ```
-/// use gdel::{BallComplex, Triangulator};
+/// use gdel::{BallComplex, NONE, Triangulator};
 ///
 /// // Three balls of radius 1 that touch each other, and one far away, in which there is a smaller one.
 /// let points = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [1.0, 3f64.sqrt(), 0.0], [0.0, 0.0, 9.0], [0.0, 0.5, 9.0]];
 /// let radii = [1.0, 1.0, 1.0, 2.0, 0.5];
 /// let weights = radii.map(|r| r * r);
 /// let mesh = Triangulator::new().regular3d(&points, &weights)?;
-/// assert_eq!(mesh.hidden, [4]);
-///
 /// let complex = BallComplex::new(&mesh, &points, &weights, 0.0)?;
-/// assert_eq!(complex.components().1, 2);
+/// assert_eq!(complex.components(), (vec![0, 0, 0, 1, NONE], 2));
 /// // As large as they have to be for the middle of the triangle.
 /// let grown = BallComplex::new(&mesh, &points, &weights, 0.6)?;
 /// assert_eq!(grown.facets().iter().filter(|(_, class)| class.is_part()).count(), 1);
