@@ -90,7 +90,8 @@ function buildWasm() {
     const to = ['--out-dir', pkg(name), '--out-name', OUT_NAME];
     const args = ['build', '--mode', 'no-install', ...packing, ...to, join(web, 'wasm')];
     const cargo = ['--locked', '--features', name];
-    if (FOR_SPEED.includes(name)) cargo.push('--config', 'profile.wasm.package.gdel-web.opt-level=2');
+    if (FOR_SPEED.includes(name))
+      cargo.push('--config', 'profile.wasm.package.gdel-web.opt-level=2');
     run('wasm-pack', ['--log-level', 'warn', ...args, '--', ...cargo], { CARGO_ENCODED_RUSTFLAGS });
     for (const file of ['.js', '.d.ts', '_bg.wasm'])
       renameSync(join(pkg(name), OUT_NAME + file), join(pkg(name), `gdel${file}`));

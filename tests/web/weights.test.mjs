@@ -146,6 +146,30 @@ for (const [key, { triangulate, generate, verify, arrays }] of Object.entries(DI
       assert.equal(mesh.stats.thread, scratch.stats.thread);
     }
     assert.ok(mesh.hidden.length > 0);
+    // Points that move keep their weights, or get others.
+    for (const change of [{}, { weights: 0.1 }, { radii: 0.2 }, { weights: 0 }, { radii: 0.1 }]) {
+      const own = (mesh.points ?? mesh.coords).map((x) => x + 0.01 * random());
+      const options = Object.fromEntries(
+        Object.entries(change).map(([name, size]) => [
+          name,
+          Float64Array.from({ length: 500 }, () => size * random()),
+        ]),
+      );
+      const kept = mesh.weights;
+      await mesh.update(own, options);
+      const scratch = await triangulate(
+        own,
+        Object.keys(change).length > 0 ? options : { weights: kept },
+      );
+      assert.equal(inOrder(mesh), inOrder(scratch));
+      assert.deepEqual([mesh.hidden, mesh.weights], [scratch.hidden, scratch.weights]);
+      assert.deepEqual(mesh.points ?? mesh.coords, own);
+    }
+    await rejects(
+      mesh.update([[...Array(D).fill(0)]]),
+      'BAD_INPUT',
+      /the mesh has 500 points, not 1/,
+    );
     const before = inOrder(mesh);
     await rejects(mesh.updateWeights([1, 2]), 'BAD_INPUT', /2 weights for 500 points/);
     await rejects(mesh.updateWeights(), 'BAD_INPUT', /0 weights/);

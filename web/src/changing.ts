@@ -35,11 +35,19 @@ import {
 import { thrown } from './errors.js';
 import { Triangles } from './files.js';
 import { bad, optionsOf, taskOptions } from './options.js';
+import { copyOf } from './points.js';
 import type { Done, Edit, Task } from './protocol.js';
 import type { Update } from './run.js';
 import { loadCode } from './runtime.js';
 import { runShared } from './shared.js';
-import type { AccessorOptions, Points, Stats, TaskOptions, UpdateOptions } from './types.js';
+import type {
+  AccessorOptions,
+  MoveOptions,
+  Points,
+  Stats,
+  TaskOptions,
+  UpdateOptions,
+} from './types.js';
 import { Updating } from './updating.js';
 import { checkDelaunay } from './weights.js';
 
@@ -119,11 +127,20 @@ export abstract class Mesh extends Triangles {
    * constraints, if points were removed from it or rescaled, or if it is being changed; `ABORTED`.
    */
   async updateWeights(weights: ArrayLike<number>, options?: TaskOptions): Promise<void> {
+    await this.#weigh({ ...optionsOf(options), weights: weights ?? [] });
+  }
+
+  /** Triangulates from scratch, with weights: the points that the mesh has, or as many others. */
+  async #weigh(options: MoveOptions, moved?: unknown): Promise<void> {
     await this.#updating.run(async () => {
       const source = this._source();
       const { regularArgs } = await loadCode(codeEdit);
-      const args = thrown(() => regularArgs(source, weights));
-      const result = await runShared(moduleEdit, 'regular', args, taskOptions(optionsOf(options)));
+      const own =
+        moved === undefined
+          ? source.points
+          : await copyOf(moved as Points, source.dimension, options);
+      const args = thrown(() => regularArgs(source, options, own));
+      const result = await runShared(moduleEdit, 'regular', args, taskOptions(options));
       const { thread, whyThread, whyInlined } = this.stats;
       const place = { thread, whyThread, whyInlined };
       const { points } = args;
@@ -142,16 +159,21 @@ export abstract class Mesh extends Triangles {
    * replaced by new ones when the promise is fulfilled. Until then, and if it is rejected, the mesh is
    * what it was.
    *
-   * @throws {@link GdelError} `BAD_INPUT` for another number of points, if the mesh is being changed,
+   * Points with weights keep them, or get those of the options `weights` or `radii`; that takes as long as a run
+   * from scratch, and the CPU does it.
+   *
+   * @throws {@link GdelError} `BAD_INPUT` for another number of points or weights, if the mesh is being changed,
    * or if `outputs` lacked `'neighbors'` or `'duplicateOf'`; and what a run is rejected with.
    */
-  update(points: Points, options?: UpdateOptions): Promise<void>;
+  update(points: Points, options?: MoveOptions): Promise<void>;
   update<P>(
     points: ArrayLike<P>,
-    options: UpdateOptions & Pick<AccessorOptions<P>, 'point'>,
+    options: MoveOptions & Pick<AccessorOptions<P>, 'point'>,
   ): Promise<void>;
-  async update(points: unknown, options?: UpdateOptions): Promise<void> {
-    await this.#change(points, options);
+  async update(points: unknown, options?: MoveOptions): Promise<void> {
+    const { weights = this.weights, radii } = optionsOf(options);
+    if (weights || radii) await this.#weigh({ ...options }, points);
+    else await this.#change(points, options);
   }
 
   /**

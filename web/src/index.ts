@@ -86,6 +86,7 @@ export type {
   Fill,
   MeshView,
   MeshView2,
+  MoveOptions,
   Output,
   Place,
   PointCloud,

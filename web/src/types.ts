@@ -148,6 +148,9 @@ export interface AccessorOptions<T> extends RunOptions {
 /** Options of `update`. */
 export interface UpdateOptions extends TaskOptions, Pick<RunOptions, 'transfer'> {}
 
+/** Options of the `update` of meshes that are not resident. */
+export interface MoveOptions extends UpdateOptions, Pick<RunOptions, 'weights' | 'radii'> {}
+
 /** Options of `createTriangulator`. */
 export interface TriangulatorOptions {
   /**

@@ -1,22 +1,32 @@
 // The arguments of tasks with weights. A part of the code that is loaded when it is needed.
 
 import type { BallOptions } from './answers.js';
-import type { Doubles } from './arrays.js';
+import type { Coordinates, Doubles } from './arrays.js';
+import { GdelError } from './errors.js';
 import { bad, optionsOf } from './options.js';
 import type { DerivedArgs, Tasks } from './protocol.js';
+import type { MoveOptions } from './types.js';
 import { checkAllUsed, checkUnconstrained, weightsOf } from './weights.js';
 
-/** Returns the task to triangulate the points of a mesh with other weights. */
+/**
+ * Returns the task to triangulate the points of a mesh, or as many others, with the weights of the options or those of
+ * the mesh.
+ */
 export function regularArgs(
   { dimension, points, mesh, factors }: DerivedArgs & { factors: readonly number[] | null },
-  weights: unknown,
+  options: MoveOptions,
+  own: Coordinates,
 ): Tasks['regular']['args'] {
   checkUnconstrained(mesh);
-  const given = weightsOf({ weights: weights ?? [] }, points.length / dimension)!;
-  if (factors) throw bad('the weights', 'left out, since the points were rescaled', weights);
+  const count = points.length / dimension;
+  const weights = weightsOf(options, count) ?? mesh.weights!;
+  if (factors)
+    throw bad('the weights', 'left out, since the points were rescaled', options.weights);
   checkAllUsed(mesh);
+  if (own.length !== points.length)
+    throw new GdelError('BAD_INPUT', `the mesh has ${count} points, not ${own.length / dimension}`);
   const outputs = ['neighbors', 'hull', 'duplicateOf'] as const;
-  return { dimension, points, weights: given, outputs };
+  return { dimension, points: own, weights, outputs };
 }
 
 /** Returns what the complex of the balls around the points of a mesh needs beside these. */

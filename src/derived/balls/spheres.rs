@@ -13,29 +13,35 @@ use crate::{
     },
 };
 
-/// For the vertices of a face, and a radius as the first coordinate of one more point: the square of the face's smallest
-/// orthogonal sphere less the square of the radius. `N` is the number of vertices of a simplex.
-struct Size<const N: usize>;
+/// How many balls the polynomials have, of which they look at fewer for most faces: so they are compiled once for all.
+const BALLS: usize = 5;
 
-impl<const K: usize, const D: usize, const N: usize> WeightedPolynomial<K, D> for Size<N>
+/// For the vertices of a face, and a radius as the first coordinate of the last point: the square of the face's smallest
+/// orthogonal sphere less the square of the radius. `N` is the number of vertices of a simplex.
+struct Size<const N: usize> {
+    /// The number of vertices of the face.
+    vertices: usize,
+}
+
+impl<const D: usize, const N: usize> WeightedPolynomial<BALLS, D> for Size<N>
 where
     Euclidean: Geometry<D, N>,
 {
-    fn value<T: Ring>(&self, points: &[[T; D]; K], weights: &[T; K]) -> T {
-        let [first, .., radius] = &points[..] else { return T::from(0) };
-        let own = weights[0].clone() + radius[0].clone() * radius[0].clone();
-        let edge = |i: usize| minus(&points[i + 1], first);
+    fn value<T: Ring>(&self, points: &[[T; D]; BALLS], weights: &[T; BALLS]) -> T {
+        let radius = &points[BALLS - 1][0];
+        let own = weights[0].clone() + radius.clone() * radius.clone();
+        let edge = |i: usize| minus(&points[i + 1], &points[0]);
         let number = |u: &[T; D], i: usize| dot(u, u) - (weights[i + 1].clone() - weights[0].clone());
-        match K - 2 {
-            0 => T::from(0) - own,
+        match self.vertices {
+            1 => T::from(0) - own,
             // Of a simplex, without the square of a determinant.
-            edges if edges == D => {
+            vertices if vertices == N => {
                 let edges: [[T; D]; D] = std::array::from_fn(edge);
                 let numbers = std::array::from_fn(|i| number(&edges[i], i));
                 let (center, denominator) = Euclidean::center_fraction(&edges, &numbers);
                 dot(&center, &center) - own * denominator.clone() * denominator
             }
-            1 => {
+            2 => {
                 let u = edge(0);
                 let l = number(&u, 0);
                 l.clone() * l - T::from(4) * own * dot(&u, &u)
@@ -50,18 +56,21 @@ where
     }
 }
 
-/// For the vertices of a face of a simplex, and one more point: the power of that ball and the face's smallest orthogonal
-/// sphere. It is negative if the sphere and the ball intersect at more than a right angle, as if the sphere contained an
-/// unweighted point.
-struct Power;
+/// For the vertices of a face that is no simplex, and one more point, the last one: the power of that ball and the face's
+/// smallest orthogonal sphere. It is negative if the sphere and the ball intersect at more than a right angle, as if the
+/// sphere contained an unweighted point.
+struct Power {
+    /// The number of vertices of the face.
+    vertices: usize,
+}
 
-impl<const K: usize, const D: usize> WeightedPolynomial<K, D> for Power {
-    fn value<T: Ring>(&self, points: &[[T; D]; K], weights: &[T; K]) -> T {
+impl<const D: usize> WeightedPolynomial<BALLS, D> for Power {
+    fn value<T: Ring>(&self, points: &[[T; D]; BALLS], weights: &[T; BALLS]) -> T {
         let number = |u: &[T; D], i: usize| dot(u, u) - (weights[i].clone() - weights[0].clone());
         let edge = |i: usize| minus(&points[i], &points[0]);
-        let q = edge(K - 1);
-        let of_q = number(&q, K - 1);
-        match K - 1 {
+        let q = edge(BALLS - 1);
+        let of_q = number(&q, BALLS - 1);
+        match self.vertices {
             1 => of_q,
             2 => {
                 let u = edge(1);
@@ -86,7 +95,7 @@ fn inverse_form<T: Ring, const D: usize>(u: &[T; D], v: &[T; D], [l, m]: &[T; 2]
 }
 
 /// Returns the sign of the square of the smallest orthogonal sphere of a face less the square of `radius`.
-pub(super) fn compare_size<const D: usize, const N: usize>(balls: &[([f64; D], f64)], radius: f64) -> Sign
+pub(super) fn compare_size<const D: usize, const N: usize>(face: &[([f64; D], f64)], radius: f64) -> Sign
 where
     Euclidean: Geometry<D, N>,
 {
@@ -95,35 +104,22 @@ where
     }
     let mut last = [0.0; D];
     last[0] = radius;
-    with_last(balls, (last, 0.0), &Size)
+    sign(&Size { vertices: face.len() }, face, (last, 0.0))
 }
 
 /// Returns whether the smallest orthogonal sphere of a face that is no simplex intersects another ball at more than a
 /// right angle.
 pub(super) fn is_attached<const D: usize>(face: &[([f64; D], f64)], other: ([f64; D], f64)) -> bool {
-    with_last(face, other, &Power) < 0
+    sign(&Power { vertices: face.len() }, face, other) < 0
 }
 
-/// Returns the sign of a polynomial of balls.
-fn with_last<const D: usize>(
-    balls: &[([f64; D], f64)],
+fn sign<const D: usize>(
+    polynomial: &impl WeightedPolynomial<BALLS, D>,
+    face: &[([f64; D], f64)],
     last: ([f64; D], f64),
-    polynomial: &(
-         impl WeightedPolynomial<2, D> + WeightedPolynomial<3, D> + WeightedPolynomial<4, D> + WeightedPolynomial<5, D>
-     ),
 ) -> Sign {
-    match *balls {
-        [a] => sign(polynomial, [a, last]),
-        [a, b] => sign(polynomial, [a, b, last]),
-        [a, b, c] => sign(polynomial, [a, b, c, last]),
-        [a, b, c, d] => sign(polynomial, [a, b, c, d, last]),
-        _ => 0,
-    }
-}
-
-fn sign<const K: usize, const D: usize>(
-    polynomial: &impl WeightedPolynomial<K, D>,
-    balls: [([f64; D], f64); K],
-) -> Sign {
+    let mut balls = [([0.0; D], 0.0); BALLS];
+    balls[..face.len()].copy_from_slice(face);
+    balls[BALLS - 1] = last;
     weighted_sign(polynomial, &balls.map(|(p, _)| p), &balls.map(|(_, weight)| weight))
 }
