@@ -16,7 +16,6 @@ type DerivedTask =
   | 'contours'
   | 'voronoi'
   | 'alphaShape'
-  | 'ballComplex'
   | 'spanningTree'
   | 'topology'
   | 'geometry'
@@ -50,8 +49,6 @@ export function openCore(module: WebAssembly.Module): Core {
       glue.voronoi(dimension, points, mesh, clip, bounds, report),
     alphaShape: ({ dimension, points, mesh, options }, report) =>
       glue.alphaShape(dimension, points, mesh, options, report),
-    ballComplex: ({ dimension, points, mesh, weights, alpha }, report) =>
-      glue.ballComplex(dimension, points, mesh, weights, alpha, report),
     spanningTree: ({ dimension, points, mesh }, report) =>
       glue.spanningTree(dimension, points, mesh, report),
     topology: ({ dimension, points, mesh }, report) =>

@@ -1,4 +1,5 @@
-// The tasks of the module that finds weights with which cells have given volumes, and treemaps of such cells.
+// The tasks of the module that finds weights with which cells have given volumes, treemaps of such cells, and the alpha
+// complex of balls.
 
 import makeGlue from 'glue:transport';
 import type { Doubles } from './arrays.js';
@@ -56,6 +57,11 @@ export function openCore(module: WebAssembly.Module): Core {
         control.onBlocking();
         const report = reporting(control);
         return glue.transport(dimension, points, clip, bounds, masses, options, report);
+      },
+      async ballComplex({ dimension, points, mesh, weights, alpha }, control) {
+        control.onBlocking();
+        const report = reporting(control);
+        return glue.ballComplex(dimension, points, mesh, weights, alpha, report);
       },
       async treemap(task, control) {
         control.onBlocking();

@@ -294,7 +294,7 @@ export async function ballComplex(
 ): Promise<BallComplex> {
   const { ballArgs } = await loadCode(codeEdit);
   const args = thrown(() => ballArgs(source, options));
-  return run('ballComplex', source, args, taskOptions(optionsOf(options)));
+  return run('ballComplex', source, args, taskOptions(optionsOf(options)), moduleTransport);
 }
 
 export interface Surface3 extends SurfaceArrays {}

@@ -6,6 +6,8 @@
 
 #[cfg(any(feature = "d2", feature = "d3", feature = "edit"))]
 mod arrays;
+#[cfg(feature = "transport")]
+mod balls;
 #[cfg(any(feature = "derived", feature = "transport"))]
 mod clips;
 #[cfg(feature = "d2")]
@@ -18,7 +20,7 @@ mod derived;
 mod edit;
 #[cfg(any(feature = "d2", feature = "d3"))]
 mod host;
-#[cfg(any(feature = "tools", feature = "derived", feature = "surface", feature = "edit"))]
+#[cfg(any(feature = "tools", feature = "derived", feature = "surface", feature = "edit", feature = "transport"))]
 mod mesh;
 mod objects;
 mod points;
@@ -28,7 +30,7 @@ mod resident;
 mod run;
 #[cfg(feature = "surface")]
 mod surface;
-#[cfg(any(feature = "derived", feature = "surface"))]
+#[cfg(any(feature = "derived", feature = "surface", feature = "transport"))]
 mod task;
 #[cfg(feature = "edit")]
 mod tiles;

@@ -26,7 +26,14 @@ pub(crate) fn get(object: &JsValue, name: &str) -> JsValue {
 }
 
 /// Copies indices into a signed array, where [`NONE`](gdel::NONE) is −1.
-#[cfg(any(feature = "d2", feature = "d3", feature = "edit", feature = "derived", feature = "surface"))]
+#[cfg(any(
+    feature = "d2",
+    feature = "d3",
+    feature = "edit",
+    feature = "derived",
+    feature = "surface",
+    feature = "transport"
+))]
 pub(crate) fn signed(indices: &[u32]) -> js_sys::Int32Array {
     js_sys::Int32Array::new_from_slice(bytemuck::cast_slice(indices))
 }

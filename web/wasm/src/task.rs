@@ -97,6 +97,10 @@ impl<M> Task<M> {
 }
 
 /// Returns coordinates, interleaved.
+#[cfg_attr(
+    not(any(feature = "derived", feature = "surface")),
+    expect(dead_code, reason = "balls have no options here")
+)]
 pub fn coordinates<const D: usize>(points: &[[f64; D]]) -> Float64Array {
     if D != 2 {
         return Float64Array::new_from_slice(points.as_flattened());
@@ -108,6 +112,10 @@ pub fn coordinates<const D: usize>(points: &[[f64; D]]) -> Float64Array {
 }
 
 /// Takes over an option, unless it is not given.
+#[cfg_attr(
+    not(any(feature = "derived", feature = "surface")),
+    expect(dead_code, reason = "balls have no options here")
+)]
 pub fn option<T>(
     options: &JsValue,
     name: &str,
