@@ -10,6 +10,7 @@
 Every sign is exact: grids, spheres, duplicates and flat input are ordinary input, and no simplex is flat.
 """
 
+from gdel._balls import BallComplex
 from gdel._constrained import ConstrainedDelaunay, Refinement
 from gdel._delaunay import Delaunay, VerifyReport, tsearch
 from gdel._derived import AlphaShape, SpanningTree, Surface, alpha_shape, minimum_spanning_tree, nearest, surface
@@ -26,6 +27,7 @@ from gdel._voronoi import Voronoi
 
 __all__ = [
     "AlphaShape",
+    "BallComplex",
     "CloughTocher2DInterpolator",
     "ConstrainedDelaunay",
     "CrossingError",

@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from gdel import _gdel
+from gdel._balls import BallComplex
 from gdel._points import (
     Backend,
     Floats,
@@ -20,6 +21,7 @@ from gdel._points import (
     Progress,
     as_aligned,
     as_floats,
+    as_number,
     as_points,
     as_progress,
     as_queries,
@@ -50,10 +52,11 @@ class VerifyReport:
 class State:
     """A mesh with its points, neither of which changes; what is derived from them is kept."""
 
-    def __init__(self, mesh: _gdel.Mesh, points: Points) -> None:
-        """Keep a mesh with its points."""
+    def __init__(self, mesh: _gdel.Mesh, points: Points, weight: float = 0.0) -> None:
+        """Keep a mesh with its points, and their weight if all have the same, which the mesh does not keep."""
         self.mesh = mesh
         self.points = points
+        self.weight = weight
 
     @cached_property
     def simplices(self) -> Indices:
@@ -156,7 +159,7 @@ class Delaunay:
     weights
         One number per point: the triangulation is then the regular one, the dual of the power diagram, which `Voronoi`
         makes of it. A point of weight *w* counts as a ball of radius √*w*; only differences count. Points can be
-        `hidden`. The CPU computes it.
+        `hidden`. The CPU computes it. `ball_complex` finds where the balls meet, for which equal weights count as well.
     radii
         One radius per point instead of `weights`, which are the squares.
     backend
@@ -197,8 +200,9 @@ class Delaunay:
         if furthest_site:
             raise ValueError("there is no furthest-site triangulation: use scipy.spatial.Delaunay")
         array = as_points(points)
-        mesh = _gdel.triangulate(array, as_weights(weights, radii), backend, threads, as_progress(progress))
-        self._take(State(mesh, array), backend, threads)
+        numbers = as_weights(weights, radii)
+        mesh = _gdel.triangulate(array, numbers, backend, threads, as_progress(progress))
+        self._take(State(mesh, array, _first(numbers)), backend, threads)
 
     def _take(self, state: State, backend: Backend, threads: int | None) -> None:
         """Take a mesh that was made with these options."""
@@ -218,6 +222,7 @@ class Delaunay:
         arrays, dimension = self._state.mesh.state()
         return {
             "points": self._state.points,
+            "weight": self._state.weight,
             "arrays": arrays,
             "dimension": dimension,
             "options": (self._backend, self._threads, self._closed),
@@ -228,7 +233,7 @@ class Delaunay:
         self._backend, self._threads, self._closed = pickled["options"]
         self._lock = threading.Lock()
         mesh = _gdel.restore(tuple(map(as_aligned, pickled["arrays"])), pickled["dimension"], self._threads)
-        self._state = State(mesh, as_aligned(pickled["points"]))
+        self._state = State(mesh, as_aligned(pickled["points"]), pickled["weight"])
 
     # What SciPy has.
 
@@ -353,7 +358,10 @@ class Delaunay:
 
     @property
     def weights(self) -> Floats | None:
-        """The weights of the points; `None` for a Delaunay triangulation, which equal weights give as well."""
+        """The weights of the points; `None` for a Delaunay triangulation, which equal weights give as well.
+
+        Equal ones are remembered for `ball_complex`.
+        """
         weights = self._state.mesh.weights
         return weights if len(weights) else None
 
@@ -415,12 +423,54 @@ class Delaunay:
         found[np.arange(k) < counts[:, None]] = indices
         return found.reshape(*shape, k)
 
+    def ball_complex(self, alpha: float = 0.0) -> BallComplex:
+        """Returns the alpha complex of balls around the points: the atoms of a molecule, the grains of a packing.
+
+        The balls are those of the `weights` or `radii` that the triangulation was made with, also if all are equal;
+        with neither, all weights are 0. A simplex, or a face of one, is part of the complex if the balls of its
+        vertices meet where the power cells of the vertices do: an edge where two balls meet, a triangle where three do,
+        a tetrahedron where four do. So the complex has the components, the tunnels and the voids of the union of the
+        balls. Hidden points, duplicates and removed points are no part of it. What is part of it is decided exactly,
+        also where balls touch; but radii are squared, which rounds.
+
+        Points in a plane of 3D, or on a line, have no simplices, but the triangles or edges where their balls meet.
+        Without weights, the solid is that of `alpha_shape`, but for exactly this alpha, which there counts up to
+        rounding.
+
+        Like alpha shapes, it is found without a report of progress, and Ctrl-C is noticed when it is done; other
+        threads of Python go on. See Edelsbrunner, *Weighted alpha shapes*, 1992, and *The union of balls and its dual
+        shape*, 1995.
+
+        Parameters
+        ----------
+        alpha
+            A number that is not negative, in the unit of the coordinates. Its square is added to the weight of each
+            point, which makes the balls larger. At 0 they are what they are; at infinity, all simplices are part.
+
+        Raises
+        ------
+        TypeError
+            If `alpha` is no number.
+        ValueError
+            If `alpha` is negative or NaN; if the triangulation is a constrained one.
+
+        Two disks that touch, and one that meets neither:
+
+        >>> found = Delaunay([(0, 0), (3, 0), (0, 9)], radii=[2, 1, 1]).ball_complex()
+        >>> found.edges.tolist(), found.singular_vertices.tolist()
+        ([[0, 1]], [2])
+        >>> found.components, found.component_of.tolist()
+        (2, [0, 0, 1])
+        """
+        state = self._state
+        return BallComplex(self, **state.mesh.ball_complex(state.points, as_number(alpha, "alpha"), state.weight))
+
     def update(self, points: npt.ArrayLike, *, progress: Progress = None) -> None:
-        """Make this the triangulation of the same points after they have moved. They cannot have weights."""
+        """Make this the triangulation of the same points after they have moved. They keep their weights."""
         array = as_points(points)
         with self._lock:
             mesh = self._state.mesh.update(array, self._backend, as_progress(progress))
-            self._state = State(mesh, array)
+            self._state = State(mesh, array, self._state.weight)
 
     def update_weights(
         self,
@@ -436,10 +486,10 @@ class Delaunay:
         with self._lock:
             state = self._state
             mesh = state.mesh.update_weights(state.points, numbers, self._backend, as_progress(progress))
-            self._state = State(mesh, state.points)
+            self._state = State(mesh, state.points, _first(numbers))
 
     def insert(self, points: npt.ArrayLike, *, progress: Progress = None) -> npt.NDArray[np.intp]:
-        """Insert points and return their indices."""
+        """Insert points and return their indices. If all points have the same weight, so have these."""
         array = as_points(points)
         with self._lock:
             state = self._state
@@ -449,7 +499,7 @@ class Delaunay:
                 # Double precision that single precision cannot hold.
                 old, new = old.astype(np.float64), array
             mesh, together = state.mesh.insert(old, new, self._backend, as_progress(progress))
-            self._state = State(mesh, together)
+            self._state = State(mesh, together, state.weight)
             return np.arange(len(old), len(together))
 
     def remove(self, indices: npt.ArrayLike, *, progress: Progress = None) -> None:
@@ -464,7 +514,7 @@ class Delaunay:
             if listed.min() < 0 or listed.max() >= len(state.points):
                 raise IndexError(f"there are {len(state.points)} points: indices must be below that, and not negative")
             mesh = state.mesh.remove(state.points, listed.ravel().tolist(), self._backend, as_progress(progress))
-            self._state = State(mesh, state.points)
+            self._state = State(mesh, state.points, state.weight)
 
     def verify(self) -> VerifyReport:
         """Prove that this is the Delaunay triangulation of its points, exactly, whoever has computed it.
@@ -492,6 +542,11 @@ class Delaunay:
         from gdel._bridges import to_matplotlib
 
         return to_matplotlib(self.points, self.simplices)
+
+
+def _first(weights: Floats | None) -> float:
+    """Return the first of weights, which are all alike if a mesh does not keep them."""
+    return 0.0 if weights is None or len(weights) == 0 else float(weights[0])
 
 
 def tsearch(tri: Delaunay, xi: npt.ArrayLike) -> Indices:

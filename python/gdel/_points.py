@@ -42,6 +42,16 @@ def as_aligned(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
     return np.require(array, requirements=["C", "A"])
 
 
+def as_number(value: float, name: str) -> float:
+    """Return a number, which can be one of NumPy's."""
+    if not isinstance(value, (str, bytes, bytearray)):
+        try:
+            return float(value)
+        except TypeError:
+            pass
+    raise TypeError(f"{name} must be a number, not {value!r}")
+
+
 def as_numbers(values: npt.ArrayLike, name: str) -> Floats:
     """Return numbers as an array of one axis."""
     array = as_floats(values, name)

@@ -7,10 +7,12 @@ use crate::{
     tree::Tree,
 };
 use gdel::{
-    AlphaShape, Mesh2, MeshView2, Open, Side, SpanningTree, Surface, SurfaceOptions, internals::geometry::Euclidean,
+    AlphaShape, BallComplex, FaceClass, Mesh2, MeshView2, Open, Side, SpanningTree, Surface, SurfaceOptions,
+    internals::geometry::Euclidean,
 };
 use numpy::IntoPyArray;
 use pyo3::{exceptions::PyValueError, prelude::*, types::PyDict};
+use std::borrow::Cow;
 
 /// Returns the shapes of the simplices.
 pub(crate) fn shapes<'py, M: Core<D, N>, const D: usize, const N: usize>(
@@ -60,6 +62,59 @@ where
     result.set_item("surface", arrays::index_rows(py, surface)?)?;
     result.set_item("radii", radii.into_pyarray(py))?;
     Ok(result)
+}
+
+/// Returns the alpha complex of the balls of a mesh. Where it has no weights, since all are equal, they are `weight`.
+pub(crate) fn ball_complex<'py, M: Core<D, N>, const D: usize, const N: usize>(
+    data: &Data<M, D, N>,
+    py: Python<'py>,
+    input: &Input<'_>,
+    alpha: f64,
+    weight: f64,
+    threads: Option<usize>,
+) -> PyResult<Bound<'py, PyDict>>
+where
+    Euclidean: Derives<D, N>,
+{
+    let points = input.points::<D>()?;
+    let (solid, faces, (component_of, components)) = compute::run(py, threads, || {
+        let weights = match data.mesh.weights() {
+            [] => Cow::Owned(vec![weight; points.len()]),
+            weights => Cow::Borrowed(weights),
+        };
+        let complex = BallComplex::new(&*data.mesh, points, &weights, alpha)?;
+        let solid: Vec<u32> = complex.solid().map(|t| t as u32).collect();
+        let faces = (parts(complex.facets()), parts(complex.edges()), parts(complex.vertices()));
+        Ok((solid, (complex.surface().to_vec(), faces), complex.components()))
+    })?;
+    let (surface, (facets, edges, vertices)) = faces;
+    let result = PyDict::new(py);
+    result.set_item("alpha", alpha)?;
+    result.set_item("solid", arrays::list(py, solid))?;
+    result.set_item("surface", arrays::index_rows(py, surface)?)?;
+    result.set_item("facets", arrays::index_rows(py, facets.all)?)?;
+    result.set_item("edges", arrays::index_rows(py, edges.all)?)?;
+    result.set_item("vertices", arrays::list(py, vertices.all))?;
+    result.set_item("singular_facets", arrays::index_rows(py, facets.singular)?)?;
+    result.set_item("singular_edges", arrays::index_rows(py, edges.singular)?)?;
+    result.set_item("singular_vertices", arrays::list(py, vertices.singular))?;
+    result.set_item("components", components)?;
+    result.set_item("component_of", arrays::list(py, component_of))?;
+    Ok(result)
+}
+
+/// Faces that are part of a complex.
+struct Parts<F> {
+    all: Vec<F>,
+    /// Those that belong to no larger one.
+    singular: Vec<F>,
+}
+
+fn parts<F: Copy>(faces: &[(F, FaceClass)]) -> Parts<F> {
+    let those = |is_one: fn(FaceClass) -> bool| {
+        faces.iter().filter(|(_, class)| is_one(*class)).map(|&(face, _)| face).collect()
+    };
+    Parts { all: those(FaceClass::is_part), singular: those(|class| class == FaceClass::Singular) }
 }
 
 /// Returns the surface and the solid that it encloses.

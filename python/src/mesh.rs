@@ -351,6 +351,18 @@ impl Mesh {
         in_dimension!(self, derived::alpha_shape(py, &Input::new(points)?, alpha, components, self.threads))
     }
 
+    /// The alpha complex of balls, whose weights are `weight` if the mesh has none.
+    #[pyo3(signature = (points, alpha, weight))]
+    fn ball_complex<'py>(
+        &self,
+        py: Python<'py>,
+        points: &Bound<'py, PyAny>,
+        alpha: f64,
+        weight: f64,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        in_dimension!(self, derived::ball_complex(py, &Input::new(points)?, alpha, weight, self.threads))
+    }
+
     /// The surface, with the options as a dictionary.
     fn surface<'py>(
         &self,

@@ -31,7 +31,7 @@ def test_blocks_run(page, tmp_path, monkeypatch):
         exec(compile(block, page, "exec"), names)
 
 
-PARTS = ["constrained", "delaunay", "voronoi", "interpolate", "derived", "transport"]
+PARTS = ["balls", "constrained", "delaunay", "voronoi", "interpolate", "derived", "transport"]
 MODULES = ["", *(f"._{part}" for part in PARTS), ".dask", ".scipy"]
 
 
