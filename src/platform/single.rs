@@ -6,22 +6,16 @@ use crate::{
 };
 use std::{cmp::Ordering, num::NonZeroUsize, ops::Range};
 
-/// Calls `work` for 0 … `len`, a range after the other.
-///
-/// At once with the GPU backend, in the WebAssembly modules that a page loads first: they would be 2 % larger, and the
-/// work that is done for each point is in functions that are called for each.
-#[inline(always)]
-fn for_ranges(len: usize, size: usize, mut work: impl FnMut(Range<usize>)) {
-    if cfg!(feature = "gpu") {
-        work(0..len);
-    } else {
-        in_pieces(len, size, &mut work);
-    }
-}
+/// Whether work is done in pieces, in functions that are called for each: not with the GPU backend, in the WebAssembly
+/// modules that a page loads first. These would be 2 % larger, and do most of their work in functions of one point each.
+const IN_PIECES: bool = !cfg!(feature = "gpu");
 
 /// Calls `work` with every chunk of `items` and the index of its first element.
 pub(crate) fn for_chunks<T: Send>(_: Threads, items: &mut [T], work: impl Fn(usize, &mut [T]) + Sync) {
-    for_ranges(items.len(), CHUNK, |range| work(range.start, &mut items[range]));
+    if !IN_PIECES {
+        return work(0, items);
+    }
+    in_pieces(items.len(), CHUNK, &mut |range| work(range.start, &mut items[range]));
 }
 
 /// Calls `work` with `items` and the index of the first one.
@@ -35,7 +29,10 @@ pub(crate) fn for_chunk_pairs<T: Send, U: Send>(
     (items, others): (&mut [T], &mut [U]),
     work: impl Fn(usize, (&mut [T], &mut [U])) + Sync,
 ) {
-    for_ranges(items.len(), CHUNK, |range| work(range.start, (&mut items[range.clone()], &mut others[range])));
+    if !IN_PIECES {
+        return work(0, (items, others));
+    }
+    in_pieces(items.len(), CHUNK, &mut |range| work(range.start, (&mut items[range.clone()], &mut others[range])));
 }
 
 /// Returns a list of `len` times `value`.
@@ -55,8 +52,11 @@ pub(crate) fn map_grains<R: Send>(
     grain: usize,
     work: impl Fn(Range<usize>) -> R + Sync,
 ) -> Vec<R> {
+    if !IN_PIECES {
+        return vec![work(0..len)];
+    }
     let mut results = Vec::new();
-    for_ranges(len, grain, |range| results.push(work(range)));
+    in_pieces(len, grain, &mut |range| results.push(work(range)));
     results
 }
 
@@ -66,8 +66,11 @@ pub(crate) fn map_mut<T: Send, R: Send>(
     items: &mut [T],
     work: impl Fn(usize, &mut T) -> R + Sync,
 ) -> Vec<R> {
+    if !IN_PIECES {
+        return items.iter_mut().enumerate().map(|(i, item)| work(i, item)).collect();
+    }
     let mut results = Vec::with_capacity(items.len());
-    for_ranges(items.len(), 1, |range| results.extend(range.map(|i| work(i, &mut items[i]))));
+    in_pieces(items.len(), 1, &mut |range| results.extend(range.map(|i| work(i, &mut items[i]))));
     results
 }
 

@@ -236,7 +236,6 @@ for (const [key, { triangulate, generate, verify, arrays }] of Object.entries(DI
     await rejects(mesh.alphaShape(), 'BAD_INPUT', needs);
     await rejects(mesh.spanningTree(), 'BAD_INPUT', needs);
     await rejects(mesh.surface(), 'BAD_INPUT', needs);
-    await rejects(mesh.update(points), 'BAD_INPUT', needs);
     await rejects(mesh.insert(points), 'BAD_INPUT', needs);
     await rejects(mesh.remove([0]), 'BAD_INPUT', needs);
     if (D === 2) assert.throws(() => mesh.find(0, 0), needs);
@@ -244,7 +243,8 @@ for (const [key, { triangulate, generate, verify, arrays }] of Object.entries(DI
     // Files are written all the same.
     assert.ok((await mesh.toVTU()).length > 0);
     const plain = await triangulate(points);
-    await rejects(plain.update(points, { weights: [1] }), 'BAD_INPUT', /triangulate anew/);
+    await rejects(plain.update(points, { weights: [1] }), 'BAD_INPUT', /1 weights for 100 points/);
+    await rejects(plain.insert(points, { weights: [1] }), 'BAD_INPUT', /triangulate anew/);
   });
 
   test(`${D}D: bad weights`, async () => {

@@ -61,7 +61,9 @@ export function openCore(module: WebAssembly.Module): Core {
       async ballComplex({ dimension, points, mesh, weights, alpha }, control) {
         control.onBlocking();
         const report = reporting(control);
-        return glue.ballComplex(dimension, points, mesh, weights, alpha, report);
+        const complex = glue.ballComplex(dimension, points, mesh, weights, alpha, report);
+        control.onProgress({ phase: 'alpha', fraction: 1 });
+        return complex;
       },
       async treemap(task, control) {
         control.onBlocking();
