@@ -63,10 +63,10 @@ test('functions and classes keep their names, which stack traces show', async ()
   for (const [name, value] of exports) assert.equal(value.name, name);
 });
 
-test('the 3D module is below 340 kB and the JavaScript with which it runs below 34.3 kB, gzipped', () => {
+test('the 3D module is below 340 kB and the JavaScript with which it runs below 34.4 kB, gzipped', () => {
   const wasm = kilobytes('gdel-3d.wasm');
   const js = kilobytes('index.js') + kilobytes('worker-3d.js');
   console.log(`gdel-3d.wasm ${wasm.toFixed(1)} kB, index.js and worker-3d.js ${js.toFixed(1)} kB`);
   assert.ok(wasm < 340);
-  assert.ok(js < 34.3);
+  assert.ok(js < 34.4);
 });

@@ -127,26 +127,18 @@ export abstract class Mesh extends Triangles {
    * constraints, if points were removed from it or rescaled, or if it is being changed; `ABORTED`.
    */
   async updateWeights(weights: ArrayLike<number>, options?: TaskOptions): Promise<void> {
-    await this.#weigh({ ...optionsOf(options), weights: weights ?? [] });
+    await this.#weigh({ ...optionsOf(options), weights: weights ?? [] }, this._source().points);
   }
 
-  /** Triangulates from scratch, with weights: the points that the mesh has, or as many others. */
-  async #weigh(options: MoveOptions, moved?: unknown): Promise<void> {
+  /** Triangulates as many points as the mesh has from scratch, with weights. */
+  async #weigh(options: MoveOptions, points: unknown): Promise<void> {
     await this.#updating.run(async () => {
       const source = this._source();
-      const { regularArgs } = await loadCode(codeEdit);
-      const own =
-        moved === undefined
-          ? source.points
-          : await copyOf(moved as Points, source.dimension, options);
+      const { regularArgs, madeOf } = await loadCode(codeEdit);
+      const own = await copyOf(points as Points, source.dimension, options);
       const args = thrown(() => regularArgs(source, options, own));
       const result = await runShared(moduleEdit, 'regular', args, taskOptions(options));
-      const { thread, whyThread, whyInlined } = this.stats;
-      const place = { thread, whyThread, whyInlined };
-      const { points } = args;
-      const kept = result.hidden ? args.weights : null;
-      const made = { result: { ...result, points }, place, weights: kept };
-      this._take(made as Done<Task>);
+      this._take(madeOf(result, args, this.stats) as Done<Task>);
     });
   }
 
@@ -171,8 +163,8 @@ export abstract class Mesh extends Triangles {
     options: MoveOptions & Pick<AccessorOptions<P>, 'point'>,
   ): Promise<void>;
   async update(points: unknown, options?: MoveOptions): Promise<void> {
-    const { weights = this.weights, radii } = optionsOf(options);
-    if (weights || radii) await this.#weigh({ ...options }, points);
+    const given = optionsOf(options);
+    if (given.weights ?? given.radii ?? this.weights) await this.#weigh(given, points);
     else await this.#change(points, options);
   }
 

@@ -16,9 +16,9 @@ import { refineArgs } from './refining.js';
 import { inWorkers, joinTiles } from './tiles.js';
 import { tinArgs } from './tin-args.js';
 import type { ConstraintOptions } from './types.js';
-import { ballArgs, regularArgs } from './weighted.js';
+import { ballArgs, madeOf, placeOf, regularArgs } from './weighted.js';
 
-export { ballArgs, extrasOf, inWorkers, refineArgs, regularArgs, tinArgs };
+export { ballArgs, extrasOf, inWorkers, madeOf, placeOf, refineArgs, regularArgs, tinArgs };
 
 /** Returns a result whose constraints have methods, which cannot be sent from a worker. */
 export const withConstraints = (result: Tasks['constrained']['result']) => ({

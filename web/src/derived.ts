@@ -292,9 +292,10 @@ export async function ballComplex(
   source: Source,
   options: BallOptions | undefined,
 ): Promise<BallComplex> {
+  const task = taskOptions(optionsOf(options));
   const { ballArgs } = await loadCode(codeEdit);
   const args = thrown(() => ballArgs(source, options));
-  return run('ballComplex', source, args, taskOptions(optionsOf(options)), moduleTransport);
+  return run('ballComplex', source, args, task, moduleTransport);
 }
 
 export interface Surface3 extends SurfaceArrays {}

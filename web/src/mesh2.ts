@@ -171,11 +171,10 @@ export class Mesh2 extends Mesh {
    */
   async refine(options?: RefineOptions): Promise<Mesh2> {
     const task = taskOptions(optionsOf(options));
-    const { refineArgs, withConstraints } = await loadCode(codeEdit);
+    const { placeOf, refineArgs, withConstraints } = await loadCode(codeEdit);
     const args = thrown(() => refineArgs(this, options));
     const result = withConstraints(await runShared(moduleEdit, 'refine', args, task));
-    const { thread, whyThread, whyInlined } = this.stats;
-    const place = { thread, whyThread, whyInlined };
+    const place = placeOf(this.stats);
     // A class that names itself loses its name when it is bundled.
     const Same = this.constructor as typeof Mesh2;
     // The new mesh has constraints, too, and so is never updated.

@@ -149,7 +149,7 @@ export function updating<T extends Task>(
   const update: Update<T> = async (points, given, moved, stats, edit) => {
     const { weights, radii } = optionsOf(given) as RunOptions;
     if (weights ?? radii)
-      throw new GdelError('BAD_INPUT', 'changes of a mesh take no weights: triangulate anew');
+      throw new GdelError('BAD_INPUT', 'this takes no weights: triangulate anew');
     const all = {
       ...optionsOf(given),
       backend,

@@ -5,7 +5,7 @@ import type { Coordinates, Doubles } from './arrays.js';
 import { GdelError } from './errors.js';
 import { bad, optionsOf } from './options.js';
 import type { DerivedArgs, Tasks } from './protocol.js';
-import type { MoveOptions } from './types.js';
+import type { MoveOptions, Stats } from './types.js';
 import { checkAllUsed, checkUnconstrained, weightsOf } from './weights.js';
 
 /**
@@ -27,6 +27,21 @@ export function regularArgs(
     throw new GdelError('BAD_INPUT', `the mesh has ${count} points, not ${own.length / dimension}`);
   const outputs = ['neighbors', 'hull', 'duplicateOf'] as const;
   return { dimension, points: own, weights, outputs };
+}
+
+/** Returns what a mesh takes over of a run with weights, which the thread of the run before has made. */
+export function madeOf(
+  result: Tasks['regular']['result'],
+  { points, weights }: Tasks['regular']['args'],
+  stats: Stats,
+) {
+  const kept = result.hidden ? weights : null;
+  return { result: { ...result, points }, place: placeOf(stats), weights: kept };
+}
+
+/** Returns what stats say of the thread. */
+export function placeOf({ thread, whyThread, whyInlined }: Stats) {
+  return { thread, whyThread, whyInlined };
 }
 
 /** Returns what the complex of the balls around the points of a mesh needs beside these. */
